@@ -121,6 +121,10 @@ void ObstacleSeries::place(Contact& contact, Index k) {
   }
   if (group.friction.rule == Friction::Rule::spring && form.kind == ContactShape::Form::Kind::circle) {
     // With the lever of a spring at the radius of the gap, see Obstacles.
+    if (k == 0 && form.distance * contact.inverse[0] > dynamics::Obstacles::kMostLever)
+      throw RunError(obstacles_.name_of(contact.index) +
+                     " is nearer to the centre of a ring than half its gap, where the lever of its stick spring is "
+                     "limited and exact has no series; take dopri5, extrapolation8 or rodas4");
     t.y[at] = -form.distance * product(contact.inverse, n.z, k);
     t.z[at] = form.distance * product(contact.inverse, n.y, k);
   } else {

@@ -13,9 +13,6 @@ using model::Friction;
 using NormalPhase = ContactPhase::Normal;
 using SlipPhase = ContactPhase::Slip;
 
-/// Far from a ring, at its centre, its slip does not matter, but stays finite.
-constexpr double kMostLever = 2.0;
-
 Eigen::Vector2d tangent_to(const Eigen::Vector2d& normal) {
   return {-normal[1], normal[0]};
 }

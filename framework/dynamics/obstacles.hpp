@@ -69,6 +69,9 @@ class BUTEE_EXPORT Obstacles {
   /// arm_b rx_b.
   using Coordinates = Eigen::Vector3d;
   using Block = Eigen::Matrix3d;
+  /// Far from a ring with a stick spring, at its centre, the slip does not matter; the lever gap/r of the spring is at
+  /// most this, so that it stays finite.
+  static constexpr double kMostLever = 2.0;
   /// Entries of State::contact for each contact.
   static constexpr Index kStateSize = 4;
   /// Entries of memory() for each contact.

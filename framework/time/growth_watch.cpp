@@ -217,9 +217,9 @@ std::string GrowthWatch::describe(const State& state, double h) const {
                     " times the energy possible with these loads"
               : "a value beyond the range of numbers") +
          ". It moves fastest in " + fastest_dof(dynamics_, state) + ". " +
-         (limits_.keeps_tolerance && !std::isfinite(last_energy_)
-              ? "Loads or the initial motion are too large: check their units"
-              : describe_remedy(dynamics_, limits_, h));
+         (!limits_.keeps_tolerance      ? describe_remedy(dynamics_, limits_, h)
+          : std::isfinite(last_energy_) ? "Tighten the tolerance of " + limits_.name
+                                        : "Loads or the initial motion are too large: check their units");
 }
 
 void GrowthWatch::note_coarseness(const State& from, const State& to, double h) {

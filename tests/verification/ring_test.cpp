@@ -404,5 +404,23 @@ INSTANTIATE_TEST_SUITE_P(Adaptive, StickMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
                                          "integrator.type=rodas4", "integrator.type=exact"));
 
+/// The lever gap/r of a stick spring is limited to 2, which no series describes.
+TEST(StickSpringInARing, IsRefusedByExactNearTheCentre) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\ndof = \"uy\"\nstiffness = 100.0\n[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = "
+      "\"uz\"\nstiffness = 100.0\n[[contact]]\nnodes = \"m\"\ntype = \"ring\"\nside = \"outside\"\ncentre = [0.0064, "
+      "0.0014]\ngap = 0.001\nlaw = \"linear\"\nstiffness = 12607\nfriction = { coefficient = 0.397, stick_stiffness = "
+      "86579 }\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"uy\", value = 1.2 }, { nodes = \"m\", dof = \"uz\", "
+      "value = 0.2 }]\n[integrator]\nend_time = 0.01\n";
+  SceneRun exact(scene, {"integrator.type=exact"});
+  const time::RunReport& report = exact.run();
+  EXPECT_FALSE(report.completed);
+  EXPECT_NE(report.message.find("is nearer to the centre of a ring than half its gap"), std::string::npos)
+      << report.message;
+  SceneRun other(scene, {"integrator.type=extrapolation8"});
+  EXPECT_TRUE(other.run().completed);
+}
+
 }  // namespace
 }  // namespace butee::test::ring_test

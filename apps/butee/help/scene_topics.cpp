@@ -163,8 +163,9 @@ twists a node that has rx by -radius mu F_n, with the tangent t = (-normal_z, no
 rotation from y to z (outside a ring from z to y). With `between` the other node, whose arm is radius + gap (radius -
 gap outside a ring), counts likewise, in the opposite sense. One of
   slip_speed       m/s: regularised, smoothing = "sqrt" (default), "tanh" or "clip"; slides slowly instead of sticking
-  stick_stiffness  N/m: a stick spring with memory (in a ring at the radius of its gap: friction_force is the force there,
-                   and gap/r of it acts on a node at the distance r); also stick_damping (N s/m), static_coefficient
+  stick_stiffness  N/m: a stick spring with memory (in a ring at the radius of its gap: friction_force is the force
+                   there, and gap/r of it, at most 2, acts on a node at the distance r); also stick_damping (N s/m),
+                   static_coefficient
   stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
 and surface_speed (m/s) of the obstacle along the tangent, for example of a belt.
 
