@@ -74,7 +74,37 @@ void DerivativeBounds::find(std::size_t breakpoint) {
   of_[0] = (omega * h > 1.0).select(of_[1] / omega, q.abs() + h * of_[1]);
   of_[2] = load[0] + omega * (omega * of_[0]).min(of_[1]) + decay * of_[1];
   for (std::size_t k = 3; k < of_.size(); ++k) of_[k] = load[k - 2] + squares * of_[k - 2] + decay * of_[k - 1];
+  if (modal_.other_loads().empty()) find_beside_steady(t, q, v);
   for (Overdamped& mode : overdamped_) find(mode, t, h, q[mode.mode], v[mode.mode]);
+}
+
+// Modes far faster than their loads follow these: their motion is the steady response and a free vibration, whose
+// sqrt(v^2 + omega^2 q^2) does not grow.
+void DerivativeBounds::find_beside_steady(double t, const ArrayXd& q, const ArrayXd& v) {
+  const ArrayXd &omega = modal_.frequencies(), squares = omega.square(), decay = 2.0 * modal_.decay();
+  ArrayXd free_q = q, free_v = v;
+  std::array<ArrayXd, 7> steady;
+  for (ArrayXd& bound : steady) bound.setZero(modal_.size());
+  for (const dynamics::ModalHarmonic& load : modal_.harmonics()) {
+    const double turn = load.angular_frequency, cosine = std::cos(turn * t), sine = std::sin(turn * t);
+    const ArrayXd real = squares - turn * turn, imaginary = decay * turn, size = real.square() + imaginary.square(),
+                  a = (load.cosine * real - load.sine * imaginary) / size,
+                  b = (-load.sine * real - load.cosine * imaginary) / size;
+    free_q -= a * cosine - b * sine;
+    free_v += turn * (a * sine + b * cosine);
+    ArrayXd amplitude = (a.square() + b.square()).sqrt();
+    for (ArrayXd& bound : steady) {
+      bound += amplitude;
+      amplitude *= turn;
+    }
+  }
+  const ArrayXd speed = (free_v.square() + squares * free_q.square()).sqrt();
+  std::array<ArrayXd, 7> all = {speed / omega, speed, omega * speed + decay * speed};
+  for (std::size_t k = 3; k < all.size(); ++k) all[k] = squares * all[k - 2] + decay * all[k - 1];
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    all[k] += steady[k];
+    of_[k] = all[k].isFinite().select(of_[k].min(all[k]), of_[k]);
+  }
 }
 
 // The equation bounds the derivatives of an overdamped mode by powers of its fast rate, although hardly anything moves

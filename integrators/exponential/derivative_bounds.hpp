@@ -32,6 +32,8 @@ class DerivativeBounds {
   };
   /// Computes the bounds for the step that begins at a breakpoint.
   void find(std::size_t breakpoint);
+  /// Lowers the bounds by those of the steady response to harmonic loads and of the free vibration beside it.
+  void find_beside_steady(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v);
   /// The bounds of an overdamped mode: its steady state and the part of the slow rate; sets of_fast.
   void find(Overdamped& mode, double t, double h, double q, double v);
 

@@ -330,6 +330,54 @@ quantities = ["contact_force", "a"]
   }
 }
 
+/// An element of 1 mm has modes of 6e7 rad/s that follow the load and do not oscillate: the search between rows that
+/// are far apart must not look for them.
+TEST(PeaksOfStiffParts, AreThoseOfTheRowsOfAFineHistory) {
+  TemporaryFolder folder;
+  folder.write("scene.toml", R"(
+schema = 1
+[material.s]
+young_modulus = 2.1e11
+density = 7850.0
+[section.c]
+shape = "circle"
+radius = 0.02
+[[element]]
+type = "beam"
+name = "b"
+material = "s"
+section = "c"
+coordinates = [0, 0.25, 0.5, 0.75, 1.0, 1.001, 1.25, 1.5, 1.75, 2.0]
+[[support]]
+nodes = ["b:first", "b:last"]
+fix = ["u"]
+[[load]]
+node = "b:4"
+type = "harmonic"
+amplitude = 200.0
+angular_frequency = 50.0
+phase = -1.5707963267948966
+[integrator]
+type = "exponential"
+tolerance = 1e-5
+end_time = 0.3
+[[output.probe]]
+label = "m"
+node = "b:4"
+quantities = ["u"]
+)");
+  const auto run = [&](const std::string& interval) {
+    EXPECT_EQ(
+        run_program({"run", "scene.toml", "-q", "-o", "results", "--set", "output.interval=" + interval}, folder.path())
+            .status,
+        0);
+    return Json::parse(read_file(folder.file("results/summary.json")))["peak"]["m.u"].get<double>();
+  };
+  const double fine = run("1e-5"), rows = largest(CsvTable(folder.file("results/history.csv")).column("m.u"));
+  EXPECT_NEAR(fine, rows, 1e-6 * rows);
+  EXPECT_NEAR(run("5e-3"), rows, 1e-6 * rows);
+}
+
 /// contact_force belongs to the DOF of the stops; contact_uy and contact_uz tell directions apart.
 TEST(PeaksOfContacts, AreThoseOfStopsAlongAnyDof) {
   const std::string scene = R"(
