@@ -37,9 +37,9 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 /// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
 /// error. Except with Interpolation::cubic, pieces also end at the instants of rows, and
 /// with Interpolation::other at discontinuities of the loads. Gauss' rule with five points is
-/// used with obstacles, whose forces may jump, and with Interpolation::near_quintic. With Interpolation::other pieces
-/// are halved until Kronrod's rule with 15 points and Gauss' rule with seven of them agree. The balance error is
-/// (change + dissipated - work) / largest energy.
+/// used with obstacles, whose forces may jump, and along quintics, where v.C v is of degree 8. With
+/// Interpolation::other pieces are halved until Kronrod's rule with 15 points and Gauss' rule with seven of them agree.
+/// The balance error is (change + dissipated - work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
   /// `dynamics` must outlive this object. A `writer` gets a row at the start, at each of `times` and at the last step;

@@ -91,5 +91,30 @@ TEST(DerivativeBounds, OfAnOverdampedModeForgetItsFastRate) {
   });
 }
 
+/// x'' + x' + 1600 x = 3 cos(5t + 1): the steady response alone, and with a free vibration, also one whose speed at the
+/// start is twice and in the sense opposite to that of the steady response.
+TEST(DerivativeBounds, OfAFastModeAreThoseOfItsSteadyResponseAndFreeVibration) {
+  constexpr double kOmega = 40.0, kDelta = 0.5, kTurn = 5.0;
+  SceneRun run(mass_on_spring("1600.0",
+                              "[damping]\nmass_proportional = 1.0\n[[load]]\ntype = \"harmonic\"\nnode = "
+                              "\"m\"\namplitude = 3.0\nangular_frequency = 5.0\nphase = 1.0\n"));
+  const std::complex<double> steady = std::polar(3.0, 1.0) /
+                                      std::complex<double>(kOmega * kOmega - kTurn * kTurn, 2.0 * kDelta * kTurn),
+                             rate(-kDelta, std::sqrt(kOmega * kOmega - kDelta * kDelta));
+  for (const double free : {0.0, 1e-2, 2.0 * kTurn * steady.imag() / rate.imag()}) {
+    const auto at = [&](double t) {
+      const std::complex<double> turning = steady * std::polar(1.0, kTurn * t), left = free * std::exp(rate * t);
+      return Motion{turning.real() + left.imag(), -kTurn * turning.imag() + (rate * left).imag(),
+                    -kTurn * kTurn * turning.real() + (rate * rate * left).imag()};
+    };
+    compare(run, at, [&](double, double h, const Motion& bound) {
+      if (free != 0.0) return;
+      const double sixth = std::abs(steady) * std::pow(kTurn, 6);
+      EXPECT_LE(bound.x, 1.01 * integrators::quintic_error(h, sixth).x);
+      EXPECT_LE(bound.v, 1.01 * integrators::quintic_error(h, sixth).v);
+    });
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::derivative_bounds_test
