@@ -13,7 +13,7 @@ double lowest_frequency(const dynamics::ModalSystem& modal) {
 }  // namespace
 
 ContactError::ContactError(const model::System& system, const dynamics::ModalSystem& modal, const StepGoal& goal,
-                           const std::vector<ContactForce>& contacts, const DisplacementBounds& bounds,
+                           std::vector<ContactForce>& contacts, const DisplacementBounds& bounds,
                            const ContactScales& scales, const ContactIteration& iteration,
                            const ResidualErrors& residual)
     : modal_(modal),
@@ -26,9 +26,9 @@ ContactError::ContactError(const model::System& system, const dynamics::ModalSys
       accounts_(account_goal(goal, lowest_frequency(modal)), static_cast<Index>(contacts.size())),
       modes_(system, modal, contacts, bounds.gaps(), account_goal(goal, lowest_frequency(modal)), residual.jumps()) {}
 
-void ContactError::start(double t, double* memory) const {
+void ContactError::start(double t, const double* q, const double* w, double* memory) const {
   accounts_.start(t, memory);
-  modes_.start(t, memory + accounts_.memory_size());
+  modes_.start(t, q, w, scales_.rounding_rate(), memory + accounts_.memory_size());
 }
 
 void ContactError::load(double t, const double* memory, const ModalState& state) {

@@ -17,12 +17,12 @@ class ContactError {
  public:
   /// All must outlive it.
   ContactError(const model::System& system, const dynamics::ModalSystem& modal, const StepGoal& goal,
-               const std::vector<ContactForce>& contacts, const DisplacementBounds& bounds, const ContactScales& scales,
+               std::vector<ContactForce>& contacts, const DisplacementBounds& bounds, const ContactScales& scales,
                const ContactIteration& iteration, const ResidualErrors& residual);
 
   Index memory_size() const { return accounts_.memory_size() + modes_.memory_size(); }
-  /// Fills the entries of a state at the start of a run.
-  void start(double t, double* memory) const;
+  /// Fills the entries of a state with the modal displacements `q` and those of the stops, `w`, at the start of a run.
+  void start(double t, const double* q, const double* w, double* memory) const;
   /// Begins a macro step with the state at t.
   void load(double t, const double* memory, const ModalState& state);
   void save(double* memory) const;

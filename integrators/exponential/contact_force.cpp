@@ -144,6 +144,12 @@ void ContactForce::add_spring(const ContactPath& path, double begin, double end,
   add(to.force, moments_from_powers(-stiffness_ * power[0], -stiffness_ * power[1], -stiffness_ * power[2]));
 }
 
+double ContactForce::tangent_at(double w) const {
+  if (residual_ > 0.0) return stiffness_;
+  const double upper = w - gap_, lower = -w - gap_;
+  return contact_.law_of(stop_).tangent(!on_lower_ ? upper : !on_upper_ ? lower : std::max(upper, lower));
+}
+
 double ContactForce::rest_at(double w, double side) {
   return contact_.force_of(stop_, w) + (side != 0.0 ? stiffness_ * (w - side * gap_) : 0.0);
 }

@@ -41,6 +41,8 @@ class ContactForce {
   static bool is_leaving(double w, double gap) { return w != 0.0 && std::abs(w) < kLeaving * std::abs(gap); }
   /// The force of a stop at a displacement, N.
   double force_at(double w) { return rest_at(w, 0.0); }
+  /// The stiffness of a closed stop at a displacement, N/m; beside the transition of a regularised law.
+  double tangent_at(double w) const;
   /// Sets the allowed error of the force, N, if it persists for the whole run and if it persists
   /// for the characteristic time of the motion. Approximations of the rest with larger errors are
   /// not used, and more panels are taken. The first bound applies to one-sided stops, whose errors

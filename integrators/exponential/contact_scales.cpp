@@ -12,8 +12,16 @@ namespace {
 constexpr double kTiny = 1e-300;
 }  // namespace
 
+double contact_frequency(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact) {
+  const Vector stiffness = contact.closed_stiffness();
+  double square = 0.0;
+  for (Index i = 0; i < modal.stop_count(); ++i)
+    square = std::max(square, stiffness[i] * modal.stop_shapes().of(i).squaredNorm());
+  return std::sqrt(square);
+}
+
 ContactScales::ContactScales(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact)
-    : modal_(modal) {
+    : modal_(modal), rounding_rate_(kLeastSpeed * contact_frequency(modal, contact)) {
   for (ArrayXd* array : {&w_, &wv_}) array->setZero(dynamics::ContactPropagator::padded(contact.size()));
   for (Index i = 0; i < contact.size(); ++i) {
     pair_of_.push_back(-1);

@@ -7,6 +7,9 @@
 
 namespace butee::integrators {
 
+/// The highest frequency, rad/s, at which the modes move against one closed stop: (k phi_j^T phi_j)^(1/2).
+double contact_frequency(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact);
+
 /// The scales to which errors of stops are relative: the largest displacement and speed of each
 /// stop so far, at least a thousandth of the largest of all stops. A stop between two bodies takes
 /// the scales of the body whose motion by the stop's force is largest relative to its own scale.
@@ -15,6 +18,9 @@ class ContactScales {
  public:
   /// The scale of a stop is at least this fraction of the largest one (integrators/error-control.md).
   static constexpr double kFloor = 1e-3;
+  /// Speeds below this part of contact_frequency() times a displacement are rounding, as in a static position on closed
+  /// stops.
+  static constexpr double kLeastSpeed = 1e-8;
 
   /// `modal` must outlive it.
   ContactScales(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact);
@@ -28,6 +34,8 @@ class ContactScales {
   void load(const double* memory, ContactScale largest);
   void save(double* memory) const;
 
+  /// The least speed per displacement, 1/s.
+  double rounding_rate() const { return rounding_rate_; }
   /// The largest displacement and speed of any stop so far.
   const ContactScale& largest() const { return largest_; }
   void raise_largest(const ModalState& to) {
@@ -57,6 +65,7 @@ class ContactScales {
   };
 
   const dynamics::ModalSystem& modal_;
+  double rounding_rate_;
   ContactScale largest_;
   Eigen::ArrayXd w_, wv_;
   std::vector<Pair> pairs_;

@@ -27,9 +27,6 @@ constexpr Index kExtras = 6;
 /// the exact state.
 constexpr double kOutputs = 2.0;
 
-/// The least speed scale as a fraction of displacements and contact_frequency(), far above rounding.
-constexpr double kLeastSpeed = 1e-8;
-
 /// The bound of a path's departure from the cubic in the middle of a step, relative to the
 /// displacement scale. The path contains the departure, and the error falls with its power 3/2 in
 /// smooth motion and with its power 1 where stops open and close. Below
@@ -93,18 +90,10 @@ Exponential<Step>::Exponential(dynamics::Dynamics& dynamics, const ExponentialOp
       sizes_(first_index()) {}
 
 template <class Step>
-double Exponential<Step>::contact_frequency() const {
-  const Vector stiffness = dynamics().stops().closed_stiffness();
-  double square = 0.0;
-  for (Index i = 0; i < modal_.stop_count(); ++i)
-    square = std::max(square, stiffness[i] * modal_.stop_shapes().of(i).squaredNorm());
-  return std::sqrt(square);
-}
-
-template <class Step>
 int Exponential<Step>::first_index() const {
   if (!step_.has_stops()) return 0;
-  const double frequency = contact_frequency(), h = std::pow(options_.tolerance, 0.25) * 4.0 / frequency;
+  const double frequency = contact_frequency(modal_, dynamics().stops()),
+               h = std::pow(options_.tolerance, 0.25) * 4.0 / frequency;
   // At most the time scale of the slowest motion.
   const double lowest = modal_.frequencies().minCoeff();
   const double most = std::min(1.0 / frequency, lowest > 0.0 ? 1.0 / lowest : h);
@@ -129,11 +118,11 @@ void Exponential<Step>::do_start(State& state) {
     Vector w(modal_.stop_count()), speed(modal_.stop_count());
     modal_.stop_shapes().displacement(state.memory.data(), w.data());
     modal_.stop_shapes().displacement(state.memory.data() + n, speed.data());
-    const ContactScale floor = least_scale(dynamics(), modal_, state, options_.run_time, contact_frequency());
+    const double closed = contact_frequency(modal_, dynamics().stops());
+    const ContactScale floor = least_scale(dynamics(), modal_, state, options_.run_time, closed);
     scale = {std::max(floor.displacement, w.lpNorm<Eigen::Infinity>()),
              std::max(floor.speed, speed.lpNorm<Eigen::Infinity>())};
-    // In a static position on closed stops all speeds are rounding.
-    scale.speed = std::max(scale.speed, kLeastSpeed * contact_frequency() * scale.displacement);
+    scale.speed = std::max(scale.speed, ContactScales::kLeastSpeed * closed * scale.displacement);
   }
   put_extras(state, sizes_.start(), scale, state.t);
   if (modal_.is_complete()) return;

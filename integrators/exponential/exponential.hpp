@@ -85,8 +85,6 @@ class Exponential final : public time::Integrator, private time::Interpolant {
   double next_load_discontinuity(double t) const;
   /// Lets stops that rest in the middle of their gap leave it with a load that begins now (time::leave_middle()).
   void leave_middle(time::State& state) const;
-  /// sqrt(k/m) of the stiffest closed stop, 1/s.
-  double contact_frequency() const;
   int first_index() const;
   /// True if the cache holds this macro step.
   bool holds(const time::State& from, double t_end) const;

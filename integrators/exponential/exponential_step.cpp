@@ -55,7 +55,7 @@ void ExponentialStep::complete(double t, double* memory) const {
   double* stops = memory + 2 * n;
   find_stops(memory);
   scales_.start(memory, memory + n, stops, stops + 2 * m);
-  contact_error_.start(t, stops + 2 * m + scales_.memory_size());
+  contact_error_.start(t, memory, stops, stops + 2 * m + scales_.memory_size());
 }
 
 void ExponentialStep::find_stops(double* memory) const {

@@ -8,7 +8,7 @@ namespace butee::integrators {
 using Eigen::ArrayXd;
 
 UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal,
-                                 const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal,
+                                 std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal,
                                  bool jumps)
     : modal_(modal),
       contacts_(contacts),
@@ -23,11 +23,17 @@ UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::Mo
   unreceived_.setZero(modal.size());
 }
 
-void UnresolvedModes::start(double t, double* memory) const {
+void UnresolvedModes::start(double t, const double* q, const double* w, double rounding_rate, double* memory) const {
   if (!is_possible_) return;
   memory[0] = account_.rate() * t - account_.advance();
-  std::fill_n(memory + 1, speeds_.size(), 0.0);
-  for (Index j = 0; j < closed_.size(); ++j) memory[1 + speeds_.size() + j] = gaps_.is_spring(j) ? 1.0 : 0.0;
+  bool is_closed = false;
+  for (Index j = 0; j < closed_.size(); ++j) {
+    memory[1 + speeds_.size() + j] = gaps_.is_spring(j) ? 1.0 : 0.0;
+    is_closed = is_closed || gaps_.closed_side(j, w[j]) != 0.0;
+  }
+  Vector x = Vector::Zero(speeds_.size());
+  if (is_closed) modal_.to_physical(q, x);
+  Eigen::Map<Vector>(memory + 1, speeds_.size()) = rounding_rate * x.cwiseAbs();
 }
 
 void UnresolvedModes::begin(double t, const double* memory, const ModalState& state) {
@@ -80,10 +86,10 @@ void UnresolvedModes::find_rates(double t, const ModalState& state, const double
   rise_.setZero(modal_.size());
   for (Index j = 0; j < modal_.stop_count(); ++j) {
     if (closed_[j] == 0.0) continue;
-    const double stiffness = contacts_[static_cast<std::size_t>(j)].stiffness();
+    ContactForce& contact = contacts_[static_cast<std::size_t>(j)];
     const auto shape = modal_.stop_shapes().of(j).array();
-    acceleration_ -= shape * (stiffness * (state.w[j] - closed_[j] * gaps_.gaps()[j]));
-    if (was_closed[j] != 0.0) rise_ += stiffness * shape.square();
+    acceleration_ += shape * contact.force_at(state.w[j]);
+    if (was_closed[j] != 0.0) rise_ += contact.tangent_at(state.w[j]) * shape.square();
   }
   // The largest velocity of a component per unit of modal speed, relative to its scale.
   rates_.setZero(modal_.size());

@@ -28,12 +28,13 @@ inline double unreceived_part(double square) {
 class UnresolvedModes {
  public:
   /// All must outlive it. `jumps`: largest() is needed.
-  UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal,
-                  const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal, bool jumps);
+  UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts,
+                  const ContactGaps& gaps, const Goal& goal, bool jumps);
 
   Index memory_size() const { return is_possible_ ? 1 + speeds_.size() + closed_.size() : 0; }
-  /// Fills the entries of a state at the start of a run.
-  void start(double t, double* memory) const;
+  /// Fills the entries of a state with the modal displacements `q` and those of the stops, `w`, at the start of a run.
+  /// If a stop is closed there, velocities below `rounding_rate`, 1/s, times the displacements are rounding.
+  void start(double t, const double* q, const double* w, double rounding_rate, double* memory) const;
   /// Begins a macro step with the state at t.
   void begin(double t, const double* memory, const ModalState& state);
   void save(double* memory) const;
@@ -57,7 +58,7 @@ class UnresolvedModes {
   void find_rates(double t, const ModalState& state, const double* was_closed);
 
   const dynamics::ModalSystem& modal_;
-  const std::vector<ContactForce>& contacts_;
+  std::vector<ContactForce>& contacts_;
   const ContactGaps& gaps_;
   ComponentScales scales_;
   ErrorAccount account_;

@@ -130,5 +130,47 @@ end_time = 0.5
   }
 }
 
+/// A beam at rest on a stop under its weight. Neither the force of a law that is not linear nor speeds of rounding may
+/// be taken for vibrations of its modes, which would need 5457 steps.
+TEST(Exponential, TakesFewStepsAtRestOnAClosedStop) {
+  const std::string scene = R"(schema = 1
+[material.m]
+young_modulus = 2.1e11
+density = 7850.0
+[section.s]
+shape = "circle"
+radius = 0.02
+[[element]]
+type = "beam"
+name = "b"
+material = "m"
+section = "s"
+length = 4.0
+elements = 20
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+static = true
+[[support]]
+nodes = ["b:first", "b:last"]
+fix = ["u"]
+[[contact]]
+type = "stop"
+nodes = ["b:middle"]
+gap = 1e-3
+law = "hertz"
+stiffness = 1e9
+[integrator]
+type = "exponential"
+end_time = 0.02
+)";
+  SceneRun run(scene);
+  const Index middle = run.dof("b:middle");
+  const double u = run.simulation().state().x[middle];
+  ASSERT_LT(u, -1e-3);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_NEAR(run.simulation().state().x[middle], u, 1e-12);
+  EXPECT_LT(run.simulation().report().steps, 500);
+}
+
 }  // namespace
 }  // namespace butee::test::exponential_long_runs_test
