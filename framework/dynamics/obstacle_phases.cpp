@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -137,7 +138,7 @@ bool Obstacles::switches_by_acceleration(Index i) const {
 double Obstacles::excess_of_slip(Index i, double t, const Kinematics& now, const Normal& pressing, double sense,
                                  ConstVectorRef a) const {
   const Friction& friction = at(i).group->friction;
-  double tension = friction.stick_stiffness * now.slip, normal = pressing.by_penetration * now.rate;
+  double tension = sense * friction.stick_stiffness * now.slip, normal = pressing.by_penetration * now.rate;
   if (switches_by_acceleration(i)) {
     const Coordinates acceleration = gather(i, a);
     const double bend = now.approach.curvature, along = now.tangent.dot(now.motion.v);
@@ -145,9 +146,11 @@ double Obstacles::excess_of_slip(Index i, double t, const Kinematics& now, const
     double slip = now.lever * (now.tangent.dot(acceleration.head<2>()) - bend * now.rate * along);
     if (at(i).has_round_spring) slip -= now.lever * bend * along * now.rate;
     slip += acceleration[2] + surface_acceleration(i, t);
-    tension += friction.stick_damping * slip;
+    tension += friction.stick_damping * std::max(0.0, sense * slip);
   }
-  return (sense * tension - friction.coefficient * normal) / friction.stick_stiffness;
+  const double excess = (tension - friction.coefficient * normal) / friction.stick_stiffness;
+  if (friction.stick_damping == 0.0) return excess;
+  return std::max(excess, sense * now.slip - friction.coefficient * pressing.force / friction.stick_damping);
 }
 
 std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double held,

@@ -164,8 +164,9 @@ rotation from y to z (outside a ring from z to y). With `between` the other node
 gap outside a ring), counts likewise, in the opposite sense. One of
   slip_speed       m/s: regularised, smoothing = "sqrt" (default), "tanh" or "clip"; slides slowly instead of sticking
   stick_stiffness  N/m: a stick spring with memory (in a ring at the radius of its gap: friction_force is the force
-                   there, and gap/r of it, at most 2, acts on a node at the distance r); also stick_damping (N s/m),
-                   static_coefficient
+                   there, and gap/r of it, at most 2, acts on a node at the distance r); also static_coefficient and
+                   stick_damping c (N s/m), a dashpot beside the spring; both slip at mu F_n. With c/k longer
+                   than an impact the start of a stick is approximate (contact/README.md)
   stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
 and surface_speed (m/s) of the obstacle along the tangent, for example of a belt.
 
