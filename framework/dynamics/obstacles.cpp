@@ -157,13 +157,16 @@ ContactForces Obstacles::forces(Index i, double t, ConstVectorRef x, ConstVector
   result.force = -result.friction * now.lever * now.tangent;
   if (group.shape != nullptr) {
     result.force -= result.normal * now.approach.normal;
-    result.stored = group.law->energy(now.approach.penetration) - contact.rest_energy;
+    result.stored = group.law->energy(now.approach.penetration);
     result.is_released = phase.normal == NormalPhase::released;
   }
   if (group.friction.rule == Friction::Rule::spring) {
-    const double stretched = phase.slip == SlipPhase::stick ? path(i, t, now, phase.angle) - phase.anchor
-                                                            : result.friction / group.friction.stick_stiffness;
-    if (phase.touches()) result.stored += 0.5 * group.friction.stick_stiffness * stretched * stretched;
+    const Friction& friction = group.friction;
+    const double limit = std::abs(result.friction), speed = phase.slip == SlipPhase::forward ? now.slip : -now.slip,
+                 of_spring = phase.slip == SlipPhase::stick
+                                 ? friction.stick_stiffness * (path(i, t, now, phase.angle) - phase.anchor)
+                                 : limit - std::clamp(friction.stick_damping * speed, 0.0, limit);
+    if (phase.touches()) result.stored += 0.5 * of_spring * of_spring / friction.stick_stiffness;
   }
   return result;
 }
@@ -180,7 +183,7 @@ void Obstacles::add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRe
 double Obstacles::energy(double t, ConstVectorRef x, ConstVectorRef v) const {
   double sum = 0.0;
   for (Index i = 0; i < size(); ++i)
-    if (!is_idle(i, x)) sum += forces(i, t, x, v).stored;
+    if (!is_idle(i, x)) sum += forces(i, t, x, v).stored - at(i).rest_energy;
   return sum;
 }
 

@@ -48,7 +48,7 @@ struct ContactForces {
   double friction = 0.0;               ///< F_t = mu F_n s, N, against the slip
   double slip_speed = 0.0;             ///< w, m/s
   double surface = 0.0;                ///< the part of w that is not motion of the nodes, m/s
-  double stored = 0.0;                 ///< J, elastic energy in the normal law and a stick spring
+  double stored = 0.0;                 ///< J: energy of the normal law (0 at g = 0) and of a stick spring
   bool is_released = false;            ///< ContactPhase::Normal::released: no force although g > 0
   Eigen::Vector2d force = {0.0, 0.0};  ///< on node a along its directions, N
 
@@ -196,7 +196,7 @@ class BUTEE_EXPORT Obstacles {
     const model::FreeObstacles::Ends* ends;
     const std::string* name;
     model::ContactShape::Form form;
-    double rest_energy;             ///< of the law at d = 0, J
+    double rest_energy = 0.0;       ///< of the law at d = 0, J
     double reach = 0.0;             ///< m: Form::distance with a margin for rounding, for is_apart()
     bool is_silent_apart = false;   ///< no force acts while apart
     bool has_round_spring = false;  ///< a ring whose friction has a stick spring
@@ -248,9 +248,9 @@ class BUTEE_EXPORT Obstacles {
   /// The angle of the arm in a ring, rad; 0 for other contacts.
   double angle_of(Index i, const Kinematics& at) const;
   double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
-  /// If a slipping contact stuck now, its tension T would start at the slip force mu F_n. The rate
-  /// d/dt (T - mu F_n) in the sense of the slip, divided by the stick stiffness, m/s: while it is
-  /// positive the tension would exceed mu F_n, so that slip goes on.
+  /// By how much a contact slips too fast to stick, m/s. It sticks with the tension T = k s + c w = mu F_n of slip
+  /// where the spring could follow, k w + c max(0, w') <= mu F_n', with w in the sense of the slip: a larger tension
+  /// would exceed mu F_n. The stretch s is then at least 0: c w <= mu F_n (contact/README.md).
   double excess_of_slip(Index i, double t, const Kinematics& at, const Normal& pressing, double sense,
                         ConstVectorRef a) const;
   /// True if no force acts because the contact is apart.

@@ -45,6 +45,11 @@ bool is_in_contact(const dynamics::ContactForces& forces) {
   return forces.penetration > 0.0 && !forces.is_released;
 }
 
+/// The energy that an impact stores, J. What a law with a force at open contacts stores there belongs to no impact.
+double stored_by_impact(const dynamics::ContactForces& forces) {
+  return forces.penetration > 0.0 ? forces.stored : 0.0;
+}
+
 }  // namespace
 
 ContactRecorder::ContactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
@@ -83,7 +88,7 @@ void ContactRecorder::start(const time::State& state) {
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
     watch.touches = watch.is_support || is_in_contact(forces_[i]);
-    watch.stored = forces_[i].stored;
+    watch.stored = watch.is_support ? forces_[i].stored : stored_by_impact(forces_[i]);
     watch.current.t_in = state.t;
     watch.current.impact_speed = std::max(0.0, forces_[i].rate);
     watch.current.peak_force = watch.touches ? forces_[i].normal : 0.0;
@@ -243,13 +248,13 @@ void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begi
     }
     const bool touches = is_in_contact(now);
     if (touches || watch.touches) take_force(step, i, end, now.normal);
-    const double gained = now.stored - watch.stored;
+    const double stored = stored_by_impact(now), gained = stored - watch.stored;
     wear_[i].dissipated -= gained;
     if (touches || watch.touches)
       watch.current.dissipated -= gained;
     else if (gained != 0.0)
       ended_.add_dissipated(i, -gained);
-    watch.stored = now.stored;
+    watch.stored = stored;
     if (touches != watch.touches) changed.push_back(i);
   }
   for (const std::size_t i : changed) change(step, i, begin, end);
