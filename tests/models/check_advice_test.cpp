@@ -153,6 +153,25 @@ TEST(CheckAdvice, KnowsStiffnessRatioAndDurationOfAnImpact) {
   EXPECT_EQ(json["mass"], 100.0);
 }
 
+/// The force of an unbalance of 2e-3 kg m at 150 rad/s has the constant size 45 N, whatever its components are; with
+/// stiffnesses of 1e5 and 2e5 N/m the body goes round an ellipse.
+TEST(CheckAdvice, AddsTheComponentsOfAnUnbalanceByTheirPhases) {
+  const TemporaryFolder folder;
+  const auto deflection = [&](const std::string& across) {
+    folder.write("rotor.toml",
+                 "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"d\"\nmass = 4.0\n[[element]]\ntype = "
+                 "\"bearing\"\nnode = \"d\"\nstiffness = [[1e5, 0.0], [0.0, " +
+                     across +
+                     "]]\n[rotation]\nspeed = 150.0\n[[load]]\ntype = \"unbalance\"\nnode = \"d\"\nmoment = "
+                     "2e-3\n[[contact]]\ntype = \"ring\"\nnodes = \"d\"\ngap = 6e-4\nstiffness = "
+                     "1.5e6\n[integrator]\nend_time = 0.1\n");
+    return check(folder.file("rotor.toml"))["contact"]["static_deflection"].get<double>();
+  };
+  EXPECT_NEAR(deflection("1e5"), 4.5e-4, 1e-12);
+  EXPECT_NEAR(deflection("2e5"), 4.5e-4, 1e-12);
+  EXPECT_NEAR(deflection("5e4"), 9e-4, 1e-12);
+}
+
 /// Output of `butee run`: steps, rows of history.csv and their bytes.
 struct Written {
   double steps, rows, bytes;

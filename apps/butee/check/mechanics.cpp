@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include <Eigen/SparseCholesky>
@@ -69,8 +70,12 @@ class Stop {
   double stiffness() const { return law_->closed_stiffness(); }
   double gap() const { return play_ != nullptr ? play_->gap : -shape_->at({0.0, 0.0}).penetration; }
   /// The displacement towards it, or of any direction in a ring.
-  double size_of(const Vector& x) const {
-    return is_round_ ? displacement(x).norm() : std::abs(direction_.dot(displacement(x)));
+  double size_of(const Vector& x) const { return towards(x).norm(); }
+  /// The largest one during an oscillation a cos p + b sin p: half the larger axis of its ellipse.
+  double size_of(const Vector& a, const Vector& b) const {
+    const Eigen::Vector2d at_a = towards(a), at_b = towards(b);
+    const double mean = 0.5 * (at_a.squaredNorm() + at_b.squaredNorm());
+    return std::sqrt(mean + std::hypot(mean - at_b.squaredNorm(), at_a.dot(at_b)));
   }
   bool is_shut(const Vector& x) const {
     const Eigen::Vector2d d = displacement(x);
@@ -89,6 +94,9 @@ class Stop {
  private:
   static constexpr Index kGround = model::FreeStops::kGround;
 
+  Eigen::Vector2d towards(const Vector& x) const {
+    return is_round_ ? displacement(x) : Eigen::Vector2d(direction_.dot(displacement(x)), 0.0);
+  }
   Eigen::Vector2d displacement(const Vector& x) const {
     Eigen::Vector2d d = {0.0, 0.0};
     for (std::size_t k = 0; k < 2; ++k)
@@ -114,9 +122,8 @@ std::vector<Stop> stops_of(const model::System& system) {
   return stops;
 }
 
-/// The largest absolute value of a load until the end of the run; the amplitude of a harmonic load.
+/// The largest absolute value of a load until the end of the run.
 double amplitude(const model::TimeFunction& function, double end_time) {
-  if (const auto harmonic = function.harmonic()) return std::abs(harmonic->amplitude);
   double largest = 0.0;
   for (int i = 0; i <= kInstants; ++i) largest = std::max(largest, std::abs(function.value(end_time * i / kInstants)));
   return largest;
@@ -160,12 +167,22 @@ void add_statics(const model::System& system, Compliance& compliance, const std:
   if (system.loads.empty() || stops.empty()) return;
   Vector largest = Vector::Zero(static_cast<Index>(stops.size()));
   Vector constant = Vector::Zero(system.size());
+  std::map<double, std::pair<Vector, Vector>> oscillations;  // by angular frequency
   for (const model::FreeLoad& load : system.loads) {
     const Vector moved = compliance.times(pattern(load, system.size()));
+    constant += lasting_part(*load.in_time, end_time) * moved;
+    if (const auto harmonic = load.in_time->harmonic()) {
+      auto& [a, b] = oscillations.try_emplace(harmonic->angular_frequency, 0.0 * moved, 0.0 * moved).first->second;
+      a += harmonic->amplitude * std::cos(harmonic->phase) * moved;
+      b += harmonic->amplitude * std::sin(harmonic->phase) * moved;
+      continue;
+    }
     const double size = amplitude(*load.in_time, end_time);
     for (std::size_t i = 0; i < stops.size(); ++i) largest[static_cast<Index>(i)] += size * stops[i].size_of(moved);
-    constant += lasting_part(*load.in_time, end_time) * moved;
   }
+  for (const auto& [frequency, moved] : oscillations)
+    for (std::size_t i = 0; i < stops.size(); ++i)
+      largest[static_cast<Index>(i)] += stops[i].size_of(moved.first, moved.second);
   result.static_deflection = largest.maxCoeff();
   result.closed_by_constants =
       std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) { return stop.is_shut(constant); });
