@@ -134,19 +134,19 @@ std::string describe(const Trust& trust) {
   std::string text = "  trust: compared with " + (beside.empty() ? "no other run" : join(beside, " and ")) +
                      ", the error of the probes' displacements and rotations is ";
   const std::string accuracy = to_short_text(trust.accuracy) + " of the peak";
+  const bool is_bounded = trust.to_the_end || trust.end_bound < kMeaningless;
   if (trust.to_the_end)
     text += "at most " + to_short_text(trust.bound) + " of the peak to the end, within the " +
             to_short_text(trust.accuracy) + " demanded (trust_accuracy)";
   else
     text += "at most " + accuracy + " up to t = " + to_short_text(trust.horizon) +
             " s: the run is accurate up to that time" +
-            (trust.end_bound < kMeaningless ? "; to the end it is at most " + to_short_text(trust.end_bound) : "");
+            (is_bounded ? "; to the end it is at most " + to_short_text(trust.end_bound) : "");
   text += trust.chaotic
               ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
                     (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
                     ", by " + to_short_text(trust.amplification) + " in all" +
-                    (trust.to_the_end ? "" : ": beyond the horizon the motion cannot be predicted") +
-                    "; reliable results:"
+                    (is_bounded ? "" : ": beyond the horizon the motion cannot be predicted") + "; reliable results:"
               : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) +
                     " times; reliable results:";
   text += "\n";

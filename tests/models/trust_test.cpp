@@ -325,6 +325,22 @@ TEST_P(Trust, BoundsTheErrorHoldsThePeaksAndKnowsChaos) {
   }
 }
 
+/// Behind the horizon the motion is unknown unless a bound of its error is known there.
+TEST(TrustText, ForetellsNothingWhereNoBoundIsKnown) {
+  record::Trust trust;
+  trust.chaotic = true;
+  trust.accuracy = 1e-3;
+  trust.horizon = 0.27;
+  trust.end = 1.0;
+  const auto says = [&trust](double bound) {
+    trust.end_bound = bound;
+    return record::describe(trust).find("cannot be predicted") != std::string::npos;
+  };
+  EXPECT_FALSE(says(0.017));
+  EXPECT_TRUE(says(3.0));
+  EXPECT_TRUE(says(std::numeric_limits<double>::infinity()));
+}
+
 /// A method that ends its steps at the rows of the results is judged in a run with these rows.
 TEST(TrustRuns, AreTheRunOfTheResults) {
   const std::string toml = driven(40, 60, 2, Growth::none).toml();
