@@ -22,6 +22,13 @@ constexpr double kSameTime = 1e-9;
 /// moved.
 constexpr double kUnmoved = 1e-12;
 
+/// True if a support that moves by itself stands elsewhere at t = 0 than at `t`.
+bool jumps_back(const std::vector<BaseMotion>& bases, double t) {
+  return std::any_of(bases.begin(), bases.end(), [t](const BaseMotion& base) {
+    return !base.nodes.empty() && base.motion && base.motion->front().value(t) != base.motion->front().value(0.0);
+  });
+}
+
 const SavedMotion* find_motion(const SavedMotions& saved, double at) {
   for (const SavedMotion& motion : saved.motions)
     if (std::abs(motion.t - at) <= kSameTime * std::max(std::abs(at), saved.motions.back().t)) return &motion;
@@ -103,6 +110,11 @@ void SceneReader::read_initial_motion(const Parameters& p) {
     return complain("from",
                     "conflicts with [gravity] static, which starts at rest in the static position; give one of "
                     "the two");
+  if (!p.flag("keep_time") && jumps_back(model_.bases, motion->t))
+    diagnostics_.warning("initial.from", p.value("from").at,
+                         "is the motion at t = " + to_short_text(motion->t) +
+                             " s, and the [[base]] motions begin anew at t = 0, where their supports stand elsewhere; "
+                             "with keep_time = true they go on");
   model_.initial_motion = InitialMotion{motion->x, motion->v, p.flag("keep_time") ? motion->t : 0.0};
   if (saved.contacts == contact_names(model_, *dofs_))
     model_.initial_motion->contact = motion->contact;

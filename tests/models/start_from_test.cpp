@@ -241,6 +241,27 @@ TEST_F(StartFrom, TakesMotionFromAnotherFrame) {
   refused(apart, "is a run whose motion is relative to a common [base]");
 }
 
+/// Where a support moves by itself, its motion begins anew too, unless the time is kept.
+TEST_F(StartFrom, SaysThatASupportJumpsBack) {
+  const auto moved = [](const std::string& rest) {
+    return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+           "\"g\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnodes = [\"m\", \"g\"]\nstiffness = "
+           "100.0\n[[support]]\nnodes = \"g\"\nfix = [\"u\"]\n[[base]]\nnodes = \"g\"\ndisplacement = { direction = "
+           "[0, 1, 0], type = \"table\", times = [0.0, 0.3, 0.5], values = [0.0, 0.1, 0.0] }\n[integrator]\ntype = "
+           "\"exact\"\n" +
+           rest + "[output]\nprobe = [{ label = \"mid\", node = \"m\", quantities = [\"u\"] }]\n";
+  };
+  for (const auto& [end_time, jumps] : {std::pair{"0.3", true}, std::pair{"0.5", false}}) {
+    completes("first", moved("end_time = " + std::string(end_time) + "\n"));
+    for (const bool keeps : {false, true}) {
+      const std::string start = keeps ? kGoOn : "[initial]\nfrom = \"first-results\"\n";
+      const Outcome outcome = run("second", moved("end_time = 1.0\n" + start));
+      EXPECT_EQ(outcome.status, 0) << outcome.errors;
+      EXPECT_EQ(holds(outcome.errors, "begin anew at t = 0"), jumps && !keeps) << outcome.errors;
+    }
+  }
+}
+
 TEST_F(StartFrom, ModelTomlFindsTheFolderAndNoticesAChange) {
   completes("first", scene(method("rk4", "0.2")));
   completes("second", scene(method("rk4", "0.4") + kGoOn));
