@@ -156,14 +156,18 @@ class Drawing {
     begin(picture, (is_section ? "bifurcation-" : "response-") + study_.items[item].text);
     const Scale scale = scale_of(item);
     std::map<int, std::string> blocks;
+    double points = 0.0;
     store_.visit([&](const Row& row) {
       const int direction = direction_of(row);
+      points += static_cast<double>(column(item).length);
       for (std::size_t k = 0; k < column(item).length; ++k)
         blocks[direction] +=
             number(row.number(first_axis_)) + " " + number(row.number(first_item_ + item, k) * scale.factor) + "\n";
     });
+    // Few points are large, and many a cloud.
+    const std::string size = to_short_text(std::clamp(10.0 / std::sqrt(points), 0.15, 0.6), 2);
     const auto style = [&](const char* colour) {
-      return is_section ? std::string(" with points pt 7 ps 0.15 lc rgb '") + colour + "'"
+      return is_section ? " with points pt 7 ps " + size + " lc rgb '" + colour + "'"
                         : std::string(" with linespoints pt 7 ps 0.35 lw 1.2 lc rgb '") + colour + "'";
     };
     picture.plot = "plot ";
