@@ -42,6 +42,8 @@ constexpr int kCorrections = 12;
 constexpr double kCorrected = 1e-15;
 /// Steps of inverse iteration after Lanczos, which used the factor without corrections.
 constexpr int kInverseSteps = 2;
+/// Searches for more and more modes, twice as many each time.
+constexpr int kSearches = 5;
 
 /// Diagonal entries bound the highest eigenvalue from below, within a factor of some tens for
 /// beams.
@@ -178,6 +180,25 @@ RitzPairs solve_densely(const Structure& structure, Index count) {
   return refine(structure, pairs->vectors.leftCols(count));
 }
 
+Index most_modes(Index size) {
+  const auto fitting = static_cast<Index>(kMostMemory / (16.0 * static_cast<double>(size)));
+  return std::min({kMostModes, fitting, (size - linalg::lanczos_vectors(0, size)) / 2});
+}
+
+/// Beside the shift for few modes of a fine mesh the rounding of the factor may be too large; more modes have a larger
+/// shift.
+RitzPairs solve_iteratively(const Structure& structure, linalg::ShiftedFactor& factor, double scale, Index count,
+                            double& shift) {
+  Index wanted = count;
+  for (int i = 0; i < kSearches && wanted <= most_modes(structure.size()); ++i, wanted *= 2) {
+    const double bound = scale > 0.0 ? bound_of(factor, scale, wanted) : 1.0;
+    shift = -kShiftPart * bound;
+    const RitzPairs pairs = iterate(structure, factor, bound, shift, wanted, tolerance_of(scale, shift));
+    if (pairs.shapes.size() > 0 && pairs.values.allFinite()) return first_of(pairs, count);
+  }
+  return {};
+}
+
 Vector residuals_of(const Structure& structure, const linalg::ShiftedFactor& factor, const RitzPairs& pairs,
                     double shift) {
   const SparseMatrix mass = structure.mass().cast<double>();
@@ -209,8 +230,7 @@ void finish(NaturalModes& modes, RitzPairs pairs, double shift) {
 }
 
 void check_size(Index count, Index size) {
-  const auto fitting = static_cast<Index>(kMostMemory / (16.0 * static_cast<double>(size)));
-  const Index most = std::min({kMostModes, fitting, (size - linalg::lanczos_vectors(0, size)) / 2});
+  const Index most = most_modes(size);
   if (count > most)
     throw InputError(std::to_string(count) + " of " + std::to_string(size) +
                      " modes are more than can be found in reasonable time and memory; ask for at most " +
@@ -227,11 +247,8 @@ NaturalModes find_modes(const Structure& structure, Index count) {
   if (!modes.dense) check_size(count, size);
   const double scale = scale_of(structure);
   linalg::ShiftedFactor factor(structure.stiffness(), structure.mass());
-  const double bound = scale > 0.0 ? (modes.dense ? scale : bound_of(factor, scale, count)) : 1.0;
-  modes.shift = -kShiftPart * bound;
-  RitzPairs pairs = modes.dense
-                        ? solve_densely(structure, count)
-                        : iterate(structure, factor, bound, modes.shift, count, tolerance_of(scale, modes.shift));
+  RitzPairs pairs =
+      modes.dense ? solve_densely(structure, count) : solve_iteratively(structure, factor, scale, count, modes.shift);
   if (pairs.shapes.size() == 0 || !pairs.values.allFinite()) {
     modes.problem = "the eigenvalue solver did not converge";
     return modes;
