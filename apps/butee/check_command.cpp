@@ -6,6 +6,7 @@
 #include <butee/core/log.hpp>
 #include <butee/core/terminal.hpp>
 #include <butee/dynamics/modal_dashpots.hpp>
+#include <butee/dynamics/mode_analysis.hpp>
 #include <butee/scene/assembly.hpp>
 
 #include "check/picture.hpp"
@@ -40,6 +41,22 @@ void write_picture(const model::Model& model, const check::Survey& survey, const
   file << (check::is_in_space(model) ? check::picture_in_space(model, survey) : check::picture_svg(layout));
   file.close();
   if (!file) throw RunError(path + ": cannot be written");
+}
+
+/// The lowest frequencies are those of `butee modes`: the solvers of frequency_range() leave the rounding of the
+/// highest ones in them.
+void find_frequencies(const model::Model& model, const model::System& system, check::Facts& facts) {
+  facts.open = frequency_range(system, dynamics::StopState::open);
+  const bool has_stops = !system.stops.empty() || !system.obstacles.empty();
+  facts.closed = has_stops ? frequency_range(system, dynamics::StopState::closed) : facts.open;
+  if (!system.stiffness_is_symmetric) return;
+  const auto refine = [&](std::optional<dynamics::FrequencyRange>& range, std::vector<dynamics::ClosedStop> closed) {
+    const auto modes = dynamics::find_modes({model, system.dofs, std::move(closed)}, 1);
+    if (range && modes.problem.empty()) range->lowest = modes.frequencies[0];
+  };
+  refine(facts.open, {});
+  if (has_stops && system.obstacles.empty()) refine(facts.closed, dynamics::closed_stops(model, {"all"}));
+  if (!has_stops) facts.closed = facts.open;
 }
 
 void find_critical_steps(scene::Scene& session, const model::System& system, check::Facts& facts) {
@@ -79,10 +96,7 @@ int check_command(const CheckArguments& arguments) {
   const model::System system = dynamics::assemble_to_run(session.model);
   check::Facts facts;
   facts.survey = check::survey_of(session.model);
-  facts.open = frequency_range(system, dynamics::StopState::open);
-  facts.closed = system.stops.empty() && system.obstacles.empty()
-                     ? facts.open
-                     : frequency_range(system, dynamics::StopState::closed);
+  find_frequencies(session.model, system, facts);
   find_critical_steps(session, system, facts);
   facts.mechanics = check::mechanics_of(system, session.integrator.options.end_time);
   facts.instability = check::fastest_growth(session.model, system, session.integrator.options.end_time);

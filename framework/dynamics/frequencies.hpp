@@ -17,7 +17,8 @@ struct FrequencyRange {
 enum class StopState { open, closed };
 
 /// The range with all stops open or all stops closed (K + S^T k_c S). Dense for small systems,
-/// Lanczos for large ones (relative accuracy about 1e-6); nothing if Lanczos did not converge.
+/// Lanczos for large ones (relative accuracy about 1e-6, the square of the lowest with the rounding of that of the
+/// highest; find_modes() has it to more digits); nothing if Lanczos did not converge.
 BUTEE_EXPORT std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops);
 
 /// The stiffness has a negative eigenvalue.

@@ -241,6 +241,25 @@ dynamics::FrequencyRange range_of_bar(int elements) {
   return dynamics::frequency_range(run.system(), dynamics::StopState::open).value();
 }
 
+/// The lowest frequency of a fine mesh is far below the rounding of the highest, but no rigid motion.
+TEST(Check, KnowsTheLowestFrequencyOfAFineMesh) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      "schema = 1\n[material.s]\nyoung_modulus = 2.1e11\ndensity = 7850.0\n[section.c]\nshape = \"circle\"\nradius = "
+      "0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = "
+      "4.0\nelements = 1000\n";
+  const std::string rest =
+      "[[contact]]\ntype = \"stop\"\nnodes = \"b:middle\"\ngap = 1e-3\nstiffness = 1e7\n[integrator]\nend_time = 0.1\n";
+  folder.write("held.toml", scene + "[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n" + rest);
+  folder.write("free.toml", scene + rest);
+  const Outcome held = run_program({"check", folder.file("held.toml")}, folder.path());
+  const double lowest = std::sqrt(2.1e11 * 0.02 * 0.02 / 4.0 / 7850.0) * std::pow(3.141592653589793 / 4.0, 2);
+  expect_holds(held.output, {"all stops open:   " + to_short_text(lowest) + " ..."});
+  EXPECT_EQ(held.output.find("free  "), std::string::npos) << held.output;
+  const Outcome free = run_program({"check", folder.file("free.toml")}, folder.path());
+  expect_holds(free.output, {"all stops open:   0 ...", "free  "});
+}
+
 TEST(Check, LargeSystemsGoThroughLanczosWithTheSameAnswer) {
   constexpr double kPi = 3.141592653589793;
   // Lanczos computes the eigenvector to 1e-4, hence the eigenvalue to 1e-8; the mesh error is smaller.

@@ -14,9 +14,6 @@
 namespace butee::app::check {
 namespace {
 
-/// A frequency below this fraction of the highest is zero within the rounding errors of the eigenvalue
-/// solver.
-constexpr double kZeroFrequency = 1e-6;
 /// Number of entries printed from a list of damped modes.
 constexpr Index kListedModes = 10;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -198,10 +195,10 @@ void print(const scene::Scene& session, const model::System& system, const Facts
   if (has_stops) print_range("           all stops closed:", facts.closed);
   if (facts.open && facts.closed) {
     print_step(session, facts);
-    if (facts.open->lowest < kZeroFrequency * facts.open->highest)
+    if (facts.open->lowest == 0.0)
       std::printf(
-          "free       with all stops open the lowest frequency is nearly 0 beside the highest: a rigid body, a "
-          "mechanism, or a very soft structure: %s\n",
+          "free       with all stops open the lowest frequency is 0 up to rounding: a rigid body, a mechanism, or an "
+          "unstable structure: %s\n",
           dynamics::describe_softest_motion(system.stiffness, system.dofs).c_str());
   }
   print_mechanics(facts.mechanics);
