@@ -131,7 +131,8 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
 
 bool Obstacles::switches_by_acceleration(Index i) const {
   const model::ObstacleGroup& group = *at(i).group;
-  return group.friction.rule == Friction::Rule::spring &&
+  // At a constant normal force slip ends at w = 0, where w' cannot be in its sense.
+  return group.friction.rule == Friction::Rule::spring && group.shape != nullptr &&
          (group.friction.stick_damping > 0.0 || group.damping.kind != ImpactDamping::Kind::none);
 }
 

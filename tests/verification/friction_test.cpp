@@ -235,6 +235,26 @@ TEST(StickSpring, WithAStrongDashpotRubsAgainstTheSlip) {
     }
 }
 
+/// Slip that ends within a long step of `exact`, beside a strong dashpot and a load that soon pushes the mass on: the
+/// instant at which it could stick is short where the dashpot's force decides.
+TEST(StickSpring, SticksWithinALongStepOfTheSeries) {
+  const auto end_of = [](const std::string& method) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.6543992849832918\n[[element]]\ntype = "
+        "\"spring\"\nnode = \"m\"\nstiffness = 9067.902749257371\n[[contact]]\ntype = \"friction\"\nnodes = "
+        "\"m\"\nnormal_force = 219.83262864968103\nfriction = { coefficient = 0.30149873049497294, static_coefficient "
+        "= "
+        "0.580708491745256, stick_stiffness = 315073.4586563445, stick_damping = 12368.88544377722, surface_speed = "
+        "0.02102182538994883 }\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = "
+        "394.9007867578812\nangular_frequency = 15.814563736260038\n[integrator]\nend_time = 2.3838224355591944\n",
+        {"integrator.type=" + method, "integrator.tolerance=1e-10"});
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    return run.simulation().state().x[0];
+  };
+  const double wanted = end_of("extrapolation8");
+  for (const char* method : {"exact", "dopri5"}) EXPECT_NEAR(end_of(method), wanted, 1e-9) << method;
+}
+
 /// The first acceleration, and the friction forces of a start.
 class Start final : public time::Observer {
  public:
