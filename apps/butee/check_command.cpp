@@ -51,8 +51,11 @@ void find_frequencies(const model::Model& model, const model::System& system, ch
   facts.closed = has_stops ? frequency_range(system, dynamics::StopState::closed) : facts.open;
   if (!system.stiffness_is_symmetric) return;
   const auto refine = [&](std::optional<dynamics::FrequencyRange>& range, std::vector<dynamics::ClosedStop> closed) {
-    const auto modes = dynamics::find_modes({model, system.dofs, std::move(closed)}, 1);
-    if (range && modes.problem.empty()) range->lowest = modes.frequencies[0];
+    try {
+      const auto modes = dynamics::find_modes({model, system.dofs, std::move(closed)}, 1);
+      if (range && modes.problem.empty()) range->lowest = modes.frequencies[0];
+    } catch (const dynamics::UnstableStiffness&) {  // The advice names the growth.
+    }
   };
   refine(facts.open, {});
   if (has_stops && system.obstacles.empty()) refine(facts.closed, dynamics::closed_stops(model, {"all"}));
