@@ -6,6 +6,10 @@
 namespace butee::integrators {
 namespace {
 
+/// The allowed error of a step by missed forces of closed stops, as a fraction of the tolerance (chosen), and the part
+/// of it below which it need not be known.
+constexpr double kMissed = 3.0, kLittle = 0.05;
+
 double lowest_frequency(const dynamics::ModalSystem& modal) {
   return modal.size() > 0 ? modal.frequencies().minCoeff() : 0.0;
 }
@@ -44,6 +48,7 @@ void ContactError::save(double* memory) const {
 void ContactError::charge(const TriedStep& step) {
   for (const auto& [stop, error] : changes_) accounts_.charge(stop, error);
   if (step.is_near) modes_.charge(step.h);
+  modes_.keep();
 }
 
 double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) {
@@ -56,7 +61,7 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
     if (is_near && iteration_.is_touched(i)) {
       error = of_touched(flow, i, step.t_end, error, displacement);
     } else if (const double depth = paths.excess()[i] + kPathError * std::abs(quartic); is_near && depth > 0.0) {
-      const double impulse = iteration_.influence().stiff(flow, i) * depth;
+      const double impulse = iteration_.stiff(flow, i) * depth;
       const ContactScale scale = scales_.of(i, paths.reached(i), displacement);
       error = std::max(error, missed_contact_error(goal_, impulse, step.h, scale.speed) * displacement);
     }
@@ -65,15 +70,20 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
           error, of_jump(flow, i, scales_.of(i, paths.reached(i), displacement).speed) * goal_.middle * displacement);
     largest = std::max(largest, error);
   }
-  if (modes_.any() && step.is_near)
-    largest = std::max(largest, modes_.error(step.h) / modes_.allowed(step.t_end) * goal_.middle * displacement);
   return largest;
+}
+
+double ContactError::of_modes(const TriedStep& step) {
+  if (!modes_.any() || !step.is_near) return 0.0;
+  modes_.look(step.t_end, step.to);
+  const double missed = modes_.missed(step.h, kLittle * kMissed * goal_.tolerance) / (kMissed * goal_.tolerance);
+  return std::max(missed, modes_.error(step.h) / modes_.allowed(step.t_end));
 }
 
 double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic,
                                 double displacement) {
   const ContactPaths& paths = iteration_.paths();
-  const double h = flow.h(), stiffness = contacts_[static_cast<std::size_t>(stop)].stiffness();
+  const double h = flow.h(), stiffness = iteration_.stiffness(stop);
   const ContactInfluence::Known& known = iteration_.influence().of(flow, stop);
   const ContactScale scale = scales_.of(stop, paths.reached(stop), displacement);
   const bool stays_closed = paths.stays_closed(stop);

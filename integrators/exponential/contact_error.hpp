@@ -10,7 +10,7 @@
 
 namespace butee::integrators {
 
-/// The error of a step with contact: the largest of the indicators 1 to 9 of
+/// The error of a step with contact: the largest of the indicators 1 to 10 of
 /// plugins/exponential/THEORY.md, section 8.1, over all stops. Errors of changes of contact are
 /// charged to the accounts of their stops, those of modes that do not feel closed stops to another one.
 class ContactError {
@@ -35,6 +35,9 @@ class ContactError {
   /// The error of the step with its forces, m; `displacement` is the largest displacement of all
   /// stops, m.
   double of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement);
+  /// The error of the end of the step, which includes its forces, by modes that closed stops move (indicators 8 and 10),
+  /// relative to its bound.
+  double of_modes(const TriedStep& step);
   /// Indicator 6, relative to the error bound of velocities: the residual force of a stop, whose speed scale is
   /// `speed`, jumps in the step.
   double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed);

@@ -84,6 +84,7 @@ ContactForce::ContactForce(dynamics::ElasticStops& contact, Index stop)
       transition_width_(contact.law_of(stop).transition_width()),
       residual_(contact.law_of(stop).asymptotic_force()),
       is_linear_(contact.law_of(stop).is_piecewise_linear()),
+      is_bounded_(is_linear_ || residual_ > 0.0),
       on_upper_(contact.play_of(stop).has_positive()),
       on_lower_(contact.play_of(stop).has_negative()) {
   places_.reserve(2 + 3 * kDegree);
@@ -148,6 +149,10 @@ double ContactForce::tangent_at(double w) const {
   if (residual_ > 0.0) return stiffness_;
   const double upper = w - gap_, lower = -w - gap_;
   return contact_.law_of(stop_).tangent(!on_lower_ ? upper : !on_upper_ ? lower : std::max(upper, lower));
+}
+
+double ContactForce::steepest(const ContactPath& path) const {
+  return std::max({stiffness_, tangent_at(path.lowest()), tangent_at(path.highest())});
 }
 
 double ContactForce::rest_at(double w, double side) {

@@ -77,6 +77,10 @@ class ContactForce {
   /// A bound of the change of the residual force beside its bends, N.
   double bend(const ContactPath& path) const { return is_linear_ || is_off_bends(path) ? 0.0 : residual_; }
   double stiffness() const { return stiffness_; }
+  /// stiffness(), or the largest tangent along a path if that is larger, as with laws of a power of the penetration.
+  double stiffness_along(const ContactPath& path) const { return is_bounded_ ? stiffness_ : steepest(path); }
+  /// No tangent exceeds stiffness(), or only within the bend of a regularised law.
+  bool is_bounded() const { return is_bounded_; }
   /// The law is a spring while closed, without residual force.
   bool is_linear() const { return is_linear_; }
 
@@ -85,6 +89,7 @@ class ContactForce {
   static constexpr double kLeaving = 1e-50;
 
   void add_spring(const ContactPath& path, double begin, double end, double side, Projection& to) const;
+  double steepest(const ContactPath& path) const;
   /// The rest of the law: its force minus the spring force on `side` (0: no spring), N.
   double rest_at(double w, double side);
   /// The limit of the rest far from the bends of the law, N.
@@ -119,7 +124,7 @@ class ContactForce {
   Index stop_;
   double gap_, stiffness_, transition_width_, residual_;
   bool is_precise_ = false, is_finest_ = false;
-  bool is_linear_, on_upper_, on_lower_;
+  bool is_linear_, is_bounded_, on_upper_, on_lower_;
   struct RestLimits {
     double open, closed;
   };

@@ -16,20 +16,13 @@ class ContactInfluence {
   /// Both must outlive it.
   ContactInfluence(const dynamics::ModalSystem& modal, const std::vector<ContactForce>& contacts)
       : modal_(modal), rates_((modal.frequencies().square() + 4.0 * modal.decay().square()).sqrt()) {
-    for (const ContactForce& contact : contacts) {
-      stiffness_.push_back(contact.stiffness());
-      newton_.emplace_back(contact.stiffness());
-    }
+    for (const ContactForce& contact : contacts) newton_.emplace_back(contact.stiffness());
   }
 
   using Known = dynamics::ContactPropagator::Derived;
   const Known& of(dynamics::ContactPropagator& flow, Index stop) const {
     const Known& known = flow.derived(stop);
     return known.is_known ? known : find(flow, stop);
-  }
-  /// sigma = (h omega_c)^2, with omega_c the frequency of the closed stop alone.
-  double stiff(dynamics::ContactPropagator& flow, Index stop) const {
-    return stiffness_[static_cast<std::size_t>(stop)] * of(flow, stop).coupling[1][0];
   }
   /// The speed errors of the modes due to the projection of a force with a jump of 1 N at a stop, s/kg^(1/2).
   void hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop, Eigen::ArrayXd& speeds) const {
@@ -53,7 +46,6 @@ class ContactInfluence {
   const dynamics::ModalSystem& modal_;
   /// (omega^2 + 4 delta^2)^(1/2) of the modes, rad/s: damped modes count as if they turned as fast as they decay, n.
   Eigen::ArrayXd rates_;
-  std::vector<double> stiffness_;
   std::vector<ContactNewton> newton_;
 };
 

@@ -125,8 +125,10 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
 
 double ContactIteration::allow(ContactPropagator& flow, Index stop, double displacement) {
   const ContactScale scale = scales_.of(stop, paths_.reached(stop), displacement);
-  allowed_[stop] = std::max(allowed_change(goal_.middle, influence_.stiff(flow, stop), flow.h(), scale),
-                            kRoundingChange / unfinished_ * displacement);
+  const bool is_bounded = contacts_[static_cast<std::size_t>(stop)].is_bounded();
+  const double change =
+      (is_bounded ? allowed_change : allowed_next_change)(goal_.middle, stiff(flow, stop), flow.h(), scale);
+  allowed_[stop] = std::max(change, kRoundingChange / unfinished_ * displacement);
   return allowed_[stop];
 }
 
@@ -148,7 +150,7 @@ bool ContactIteration::keeps_force(ContactPropagator& flow, Index stop) const {
   const dynamics::StopMotion& now = paths_.motion();
   const double end = std::abs(now.end[stop] - noted_.end[stop]), speed = std::abs(now.speed[stop] - noted_.speed[stop]),
                middle = std::abs(now.middle[stop] - noted_.middle[stop]), path = end + kBump * speed + middle;
-  const double stiff = std::abs(influence_.stiff(flow, stop)), allowed = allowed_[stop];
+  const double stiff = std::abs(this->stiff(flow, stop)), allowed = allowed_[stop];
   const auto i = static_cast<std::size_t>(stop);
   if (contacts_[i].is_linear() || (is_spring_noted_[i] != 0 && is_spring(stop))) {
     const double missing = stiff * (kMissingByEnd * end + kMissingBySpeed * speed + kMissingByMiddle * middle);

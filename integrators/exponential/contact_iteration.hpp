@@ -30,6 +30,15 @@ class ContactIteration {
 
   const ContactPaths& paths() const { return paths_; }
   const ContactInfluence& influence() const { return influence_; }
+  /// The stiffness of a stop along its path, N/m.
+  double stiffness(Index stop) const {
+    const ContactForce& contact = contacts_[static_cast<std::size_t>(stop)];
+    return contact.is_bounded() ? contact.stiffness() : contact.stiffness_along(paths_.of(stop));
+  }
+  /// sigma = (h omega_c)^2, with omega_c the frequency of the closed stop alone.
+  double stiff(dynamics::ContactPropagator& flow, Index stop) const {
+    return stiffness(stop) * influence_.of(flow, stop).coupling[1][0];
+  }
   /// The stops that exert a force in the step.
   const std::vector<Index>& touched() const { return touched_; }
   bool is_touched(Index stop) const { return is_touched_[static_cast<std::size_t>(stop)] != 0; }

@@ -78,7 +78,7 @@ inline double unfinished_change(const StepGoal& goal, double h) {
 inline constexpr int kMostSweeps = 25;
 /// h times the speed scale is taken as at least this fraction of sigma times the displacement
 /// scale, so that the iteration converges for a stop at rest.
-inline constexpr double kLeastPart = 1e-4;
+inline constexpr double kLeastPart = 1e-9;
 /// Maximum of the Hermite functions that belong to the slopes of a cubic.
 inline constexpr double kBump = 4.0 / 27.0;
 
@@ -89,6 +89,12 @@ inline double allowed_change(double tolerance, double stiff, double h, ContactSc
   const double of_displacement = std::abs(stiff) * scale.displacement;
   const double of_speed = std::max(h * scale.speed, kLeastPart * of_displacement);
   return tolerance * (of_displacement > of_speed ? of_speed / std::abs(stiff) : scale.displacement);
+}
+
+/// The same for a law whose force is iterated as a fixed point: the force that is missing at the end moves the path by
+/// the expected next change itself, and h times the speed by 2 times as much.
+inline double allowed_next_change(double tolerance, double stiff, double h, ContactScale scale) {
+  return allowed_change(tolerance, std::max(std::abs(stiff), 2.0), h, scale);
 }
 
 // Steps with contact.

@@ -151,6 +151,8 @@ std::optional<Trial> ExponentialStep::attempt(ContactPropagator& flow) {
     if (errors_.any() && jumps_.find_moved(flow, errors_, residual_.forces(), iteration_.paths(), step_))
       return std::nullopt;
     iteration_.apply(flow, step_);
+    error_ = std::max(error_, contact_error_.of_modes(step_) * goal_.middle * *displacement);
+    if (!(error_ <= goal_.middle * *displacement)) return Trial::too_long;
   }
   if (errors_.any() && step_.breakpoint > 0.0)
     modal_.stop_shapes().displacement(step_.middle.q.data(), step_.middle.w.data());
@@ -222,7 +224,11 @@ bool ExponentialStep::shows_jump() const {
          std::any_of(jumps_.stops().begin(), jumps_.stops().end(), shows);
 }
 
+// Where a stop is closed its force balances others, and the motion without it says nothing.
 void ExponentialStep::expect_motion(int index) {
+  const ContactGaps& gaps = bounds_.gaps();
+  for (Index i = 0; i < modal_.stop_count(); ++i)
+    if (!gaps.is_spring(i) && gaps.closed_side(i, step_.from.w[i]) != 0.0) return;
   const ModalPropagator& flow = modal_.propagator(index).whole;
   step_.t_end = t() + flow.h();
   if (propagate_to_end(flow)) scales_.raise_largest(step_.to);

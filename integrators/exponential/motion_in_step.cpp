@@ -28,7 +28,8 @@ void MotionInStep::find_contacts(std::size_t from) {
                              {breakpoints_.w(from)[i], hv0, breakpoints_.w(from + 1)[i], hv1, at(StepForces::kQuartic)},
                              {at(StepForces::kMoments), at(StepForces::kMoments + 1), at(StepForces::kMoments + 2)}};
     const double allowed = at(StepForces::kAllowedSpeed);
-    const double by_slope = kSlopeImpulse * stop.stiffness() * h * std::max(std::abs(hv0), std::abs(hv1));
+    const double by_slope =
+        kSlopeImpulse * stop.stiffness_along(contact.path) * h * std::max(std::abs(hv0), std::abs(hv1));
     const bool is_seen =
         (compliances_[i] * by_slope > allowed && stop.status(contact.path) == ContactStatus::changing) ||
         (compliances_[i] * kJumpImpulse * h * std::max(stop.jump(contact.path), stop.bend(contact.path)) > allowed);

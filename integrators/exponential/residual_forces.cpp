@@ -53,9 +53,12 @@ bool ResidualErrors::may_be(ContactPropagator& flow, Index stop) const {
 }
 
 double ResidualErrors::jump_error(ContactPropagator& flow, Index stop, double quartic, double end) const {
-  const double off = std::abs(quartic), on_the_way = std::abs(end - step_.from.w[stop]);
+  const double off = std::abs(quartic), w = step_.from.w[stop];
   if (off == 0.0) return 0.0;
-  const double part = off < on_the_way ? off / on_the_way : 1.0;
+  // Off w = 0 and before the bend the force changes by less than its part off/(G - |w|).
+  const bool jumps = force(stop).jumps() && (w * end <= 0.0 || std::min(std::abs(w), std::abs(end)) <= off);
+  const double way = jumps ? std::abs(end - w) : bounds_.gaps().gaps()[stop] - bounds_.all()[stop],
+               part = off < way ? off / way : 1.0;
   return 2.0 * part * force(stop).largest() * std::abs(flow.mobilities()[stop]) * steps();
 }
 

@@ -51,12 +51,12 @@ bool SingleRecord::is_quintic(std::size_t k, double speed) const {
   constexpr double kGoodPart = 0.5, kKinkedSlope = 5e-3, kJumpedSlope = 0.07;
   const SingleBreakpoint& from = breakpoints_[k];
   const double h = breakpoints_[k + 1].t - from.t, shape = mode_.stop_shape;
-  const double stiff = from.step.force[0] != 0.0 ? h * h * contact_.stiffness() * shape * shape : 0.0;
+  const ContactPath path = path_between(mode_, from, breakpoints_[k + 1]);
+  const double stiff = from.step.force[0] != 0.0 ? h * h * contact_.stiffness_along(path) * shape * shape : 0.0;
   const double angle =
       h * h * (mode_.square + 4.0 * mode_.decay * mode_.decay + mode_.load_frequency * mode_.load_frequency) + stiff;
   const double good = kGoodPart * tolerance_;
   if (quintic_error(1.0, angle * angle * std::sqrt(angle)).v > good) return false;
-  const ContactPath path = path_between(mode_, from, breakpoints_[k + 1]);
   const double change = std::max(contact_.jump(path), contact_.bend(path));
   if (kJumpedSlope * h * shape * shape * change > good * speed) return false;
   return kKinkedSlope * stiff <= good || contact_.status(path) != ContactStatus::changing;

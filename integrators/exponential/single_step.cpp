@@ -179,10 +179,12 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
       if (!std::isfinite(change)) return Trial::too_long;
     }
     before = status;
-    const double stiff = contact_.stiffness() * coupling[1][0];
+    const double stiffness = contact_.stiffness_along(path), stiff = stiffness * coupling[1][0];
     const ContactScale reached = {scale, std::max(scale_.speed, std::max(std::abs(hv), std::abs(end[1])) / flow.h)};
     const double next = i > 0 ? change * std::min(1.0, change / last) : change,
-                 enough = unfinished_change(goal_, flow.h) * allowed_change(goal_.middle, stiff, flow.h, reached);
+                 enough =
+                     unfinished_change(goal_, flow.h) * (contact_.is_bounded() ? allowed_change : allowed_next_change)(
+                                                            goal_.middle, stiff, flow.h, reached);
     last = change;
     if (change > kRoundingChange * scale && next > enough) continue;
     double error = std::abs(quartic);
@@ -190,7 +192,7 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
       const double speed = std::max(std::abs(hv), std::abs(end[1]));
       error = path_error(error, stiff, flow.h, reached, status == ContactStatus::closed);
       if (status != ContactStatus::closed)
-        error = std::max(error, slope_error(goal_, contact_.stiffness() * flow.unresolved, speed, flow.h, reached));
+        error = std::max(error, slope_error(goal_, stiffness * flow.unresolved, speed, flow.h, reached));
       if (changes(path, w, end[0])) {
         tried_.change = change_error(stiff, speed, flow.h, reached);
         error = std::max(error, tried_.change / accounts_.allowed(0, tried_.t_end) * goal_.middle * scale);

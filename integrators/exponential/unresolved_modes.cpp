@@ -15,12 +15,17 @@ UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::Mo
       gaps_(gaps),
       scales_(system),
       account_(goal),
+      missed_(modal),
       is_possible_(modal.size() > 1 && !contacts.empty()),
       needs_speeds_(is_possible_ && jumps),
       squares_(modal.frequencies().square()),
-      closed_(ArrayXd::Zero(modal.stop_count())) {
+      closed_(ArrayXd::Zero(modal.stop_count())),
+      was_closed_(closed_) {
   if (is_possible_) speeds_ = now_ = of_kind_ = Vector::Zero(modal.shapes().rows());
-  unreceived_.setZero(modal.size());
+  for (ArrayXd* of : {&unreceived_, &rates_, &amplitudes_, &rise_, &start_.q, &start_.v, &end_.q, &end_.v})
+    of->setZero(modal.size());
+  stiffness_.setZero(modal.stop_count());
+  for (Instant* instant : {&start_, &end_}) instant->w = gaps.gaps();
 }
 
 void UnresolvedModes::start(double t, const double* q, const double* w, double rounding_rate, double* memory) const {
@@ -28,7 +33,7 @@ void UnresolvedModes::start(double t, const double* q, const double* w, double r
   memory[0] = account_.rate() * t - account_.advance();
   bool is_closed = false;
   for (Index j = 0; j < closed_.size(); ++j) {
-    memory[1 + speeds_.size() + j] = gaps_.is_spring(j) ? 1.0 : 0.0;
+    memory[1 + speeds_.size() + j] = gaps_.is_spring(j) ? 1.0 : gaps_.closed_side(j, w[j]);
     is_closed = is_closed || gaps_.closed_side(j, w[j]) != 0.0;
   }
   Vector x = Vector::Zero(speeds_.size());
@@ -40,14 +45,31 @@ void UnresolvedModes::begin(double t, const double* memory, const ModalState& st
   if (!is_possible_) return;
   spent_ = memory[0];
   speeds_ = Eigen::Map<const Vector>(memory + 1, speeds_.size());
+  was_closed_ = Eigen::Map<const ArrayXd>(memory + 1 + speeds_.size(), closed_.size());
   any_ = false;
   for (Index j = 0; j < closed_.size(); ++j) {
-    const bool was_closed = memory[1 + speeds_.size() + j] != 0.0;
     closed_[j] = gaps_.is_spring(j) ? 1.0 : gaps_.closed_side(j, state.w[j]);
-    any_ = any_ || (was_closed && closed_[j] != 0.0);
+    any_ = any_ || (was_closed_[j] != 0.0 && closed_[j] != 0.0);
   }
   if (any_ || needs_speeds_) raise_speeds(state);
-  if (any_) find_rates(t, state, memory + 1 + speeds_.size());
+  if (!any_) return;
+  start_.set(t, state);
+  find_rates(start_);
+  speeds_ = missed_.speeds();
+  is_of_start_ = true;
+  energy_ = amplitudes_.square().sum();
+}
+
+void UnresolvedModes::look(double t, const ModalState& end) {
+  constexpr double kGrown = 1.5;
+  if (end.v.square().sum() > kGrown * energy_) {
+    end_.set(t, end);
+    find_rates(end_);
+    is_of_start_ = false;
+  } else if (!is_of_start_) {
+    find_rates(start_);
+    is_of_start_ = true;
+  }
 }
 
 void UnresolvedModes::raise_speeds(const ModalState& state) {
@@ -80,24 +102,28 @@ double UnresolvedModes::error(double h) {
   return h * (rates_ * unreceived_).matrix().norm();
 }
 
-void UnresolvedModes::find_rates(double t, const ModalState& state, const double* was_closed) {
-  acceleration_ = -squares_ * state.q - 2.0 * modal_.decay() * state.v;
-  modal_.add_load(t, acceleration_);
+void UnresolvedModes::find_rates(const Instant& at) {
+  const ArrayXd& frequencies = modal_.frequencies();
+  amplitudes_ = -squares_ * at.q - 2.0 * modal_.decay() * at.v;
+  modal_.add_load(at.t, amplitudes_);
+  for (Index j = 0; j < modal_.stop_count(); ++j)
+    if (closed_[j] != 0.0)
+      amplitudes_ += modal_.stop_shapes().of(j).array() * contacts_[static_cast<std::size_t>(j)].force_at(at.w[j]);
+  amplitudes_ = (frequencies > 0.0).select((at.v.square() + (amplitudes_ / frequencies).square()).sqrt(), 0.0);
   rise_.setZero(modal_.size());
+  stiffness_.setZero(modal_.stop_count());
   for (Index j = 0; j < modal_.stop_count(); ++j) {
-    if (closed_[j] == 0.0) continue;
-    ContactForce& contact = contacts_[static_cast<std::size_t>(j)];
-    const auto shape = modal_.stop_shapes().of(j).array();
-    acceleration_ += shape * contact.force_at(state.w[j]);
-    if (was_closed[j] != 0.0) rise_ += contact.tangent_at(state.w[j]) * shape.square();
+    if (closed_[j] == 0.0 || was_closed_[j] == 0.0) continue;
+    stiffness_[j] = contacts_[static_cast<std::size_t>(j)].tangent_at(at.w[j]);
+    rise_ += stiffness_[j] * modal_.stop_shapes().of(j).array().square();
   }
+  missed_.begin(amplitudes_, stiffness_, speeds_);
   // The largest velocity of a component per unit of modal speed, relative to its scale.
   rates_.setZero(modal_.size());
-  for (Index d = 0; d < speeds_.size(); ++d)
-    if (speeds_[d] > 0.0) rates_ = rates_.max(modal_.shape_rows().col(d).array().abs() / speeds_[d]);
-  const ArrayXd& frequencies = modal_.frequencies();
-  rates_ *= (squares_ + rise_).sqrt() - frequencies;
-  rates_ = (frequencies > 0.0).select(rates_ * (state.v.square() + (acceleration_ / frequencies).square()).sqrt(), 0.0);
+  const Vector& speeds = missed_.speeds();
+  for (Index d = 0; d < speeds.size(); ++d)
+    if (speeds[d] > 0.0) rates_ = rates_.max(modal_.shape_rows().col(d).array().abs() / speeds[d]);
+  rates_ *= ((squares_ + rise_).sqrt() - frequencies) * amplitudes_;
 }
 
 }  // namespace butee::integrators

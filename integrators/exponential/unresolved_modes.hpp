@@ -5,6 +5,7 @@
 #include "integrators/error_account.hpp"
 #include "integrators/exponential/contact_force.hpp"
 #include "integrators/exponential/contact_gaps.hpp"
+#include "integrators/exponential/missed_forces.hpp"
 
 namespace butee::integrators {
 
@@ -33,7 +34,8 @@ class UnresolvedModes {
 
   Index memory_size() const { return is_possible_ ? 1 + speeds_.size() + closed_.size() : 0; }
   /// Fills the entries of a state with the modal displacements `q` and those of the stops, `w`, at the start of a run.
-  /// If a stop is closed there, velocities below `rounding_rate`, 1/s, times the displacements are rounding.
+  /// Stops that are closed there count as closed before. If there are any, velocities below `rounding_rate`, 1/s, times
+  /// the displacements are rounding.
   void start(double t, const double* q, const double* w, double rounding_rate, double* memory) const;
   /// Begins a macro step with the state at t.
   void begin(double t, const double* memory, const ModalState& state);
@@ -45,8 +47,17 @@ class UnresolvedModes {
 
   /// A stop stays closed.
   bool any() const { return any_; }
+  /// Takes the amplitudes of the modes from the end of an attempt at a step if they have grown since they were found.
+  void look(double t, const ModalState& end);
+  /// After a step was accepted.
+  void keep() {
+    if (!is_of_start_) std::swap(start_, end_);
+    is_of_start_ = true;
+  }
   /// The error of a step of length h, relative to the largest velocity so far of the component that it affects most.
   double error(double h);
+  /// MissedForces::error()
+  double missed(double h, double enough) { return missed_.error(h, enough); }
   /// The largest error() of a step to t.
   double allowed(double t) const { return ErrorAccount::kSpend / kMacroStep * (account_.rate() * t - spent_); }
   void charge(double h) {
@@ -54,24 +65,44 @@ class UnresolvedModes {
   }
 
  private:
+  /// The modes' motion and the displacements of the stops at an instant.
+  struct Instant {
+    double t;
+    Eigen::ArrayXd q, v, w;
+
+    void set(double instant, const ModalState& state) {
+      t = instant;
+      q = state.q;
+      v = state.v;
+      w = state.w;
+    }
+  };
+
   void raise_speeds(const ModalState& state);
-  void find_rates(double t, const ModalState& state, const double* was_closed);
+  void find_rates(const Instant& at);
 
   const dynamics::ModalSystem& modal_;
   std::vector<ContactForce>& contacts_;
   const ContactGaps& gaps_;
   ComponentScales scales_;
   ErrorAccount account_;
+  MissedForces missed_;
   bool is_possible_;        ///< the modes turn at different rates
   bool needs_speeds_;       ///< in every macro step
   Eigen::ArrayXd squares_;  ///< omega^2
   bool any_ = false;
   double spent_ = 0.0;
-  Vector speeds_, now_;    ///< largest velocity of each DOF so far, the present one
-  Vector of_kind_;         ///< the largest of these velocities for the kind of each DOF
-  Eigen::ArrayXd closed_;  ///< the side on which each stop was closed at the start of the macro step; 0: open
-  Eigen::ArrayXd rates_;   ///< error of each mode per second if it does not feel the stops at all, 1/s
-  Eigen::ArrayXd acceleration_, rise_;
+  Vector speeds_, now_;        ///< largest velocity of each DOF so far, the present one
+  Vector of_kind_;             ///< the largest of these velocities for the kind of each DOF
+  Eigen::ArrayXd closed_;      ///< the side on which each stop was closed at the start of the macro step; 0: open
+  Eigen::ArrayXd was_closed_;  ///< the same for the macro step before
+  Instant start_, end_;        ///< the instants at which amplitudes were found
+  bool is_of_start_ = true;    ///< amplitudes_ are those of start_
+  double energy_ = 0.0;        ///< sum of the squares of the amplitudes at start_, J
+  Eigen::ArrayXd rates_;       ///< error of each mode per second if it does not feel the stops at all, 1/s
+  Eigen::ArrayXd amplitudes_;  ///< of the modes' velocities, kg^(1/2) m/s
+  Eigen::ArrayXd rise_;        ///< of omega^2 by the stops, 1/s^2
+  Vector stiffness_;           ///< of the stops that stay closed; 0: others, N/m
   Eigen::ArrayXd unreceived_;  ///< unreceived_part() of each mode for steps of unreceived_h_
   double unreceived_h_ = 0.0;  ///< s
 };
