@@ -45,16 +45,20 @@ Index count_soft(ConstVectorRef squares, double highest) {
   return std::upper_bound(squares.begin(), squares.end(), kSoft * highest) - squares.begin();
 }
 
+Eigen::MatrixXd soft_product(Index count, const SparseMatrix& matrix, const Eigen::MatrixXd& shapes) {
+  const linalg::ExtendedColumns soft = shapes.leftCols(count).cast<long double>();
+  linalg::ExtendedColumns forces = linalg::ExtendedColumns::Zero(shapes.rows(), count);
+  for (Index column = 0; column < matrix.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
+      forces.row(entry.row()) += static_cast<long double>(entry.value()) * soft.row(column);
+  const linalg::ExtendedColumns product = soft.transpose() * forces;
+  return product.cast<double>();
+}
+
 Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix& stiffness,
                                const Eigen::MatrixXd& shapes) {
   constexpr double kMixed = 1e-9;
-  const linalg::ExtendedColumns soft = shapes.leftCols(count).cast<long double>();
-  linalg::ExtendedColumns forces = linalg::ExtendedColumns::Zero(shapes.rows(), count);
-  for (Index column = 0; column < stiffness.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry)
-      forces.row(entry.row()) += static_cast<long double>(entry.value()) * soft.row(column);
-  const linalg::ExtendedColumns extended = soft.transpose() * forces;
-  Eigen::MatrixXd product = extended.cast<double>();
+  Eigen::MatrixXd product = soft_product(count, stiffness, shapes);
   const Eigen::MatrixXd sizes = shapes.leftCols(count).cwiseAbs();
   const SparseMatrix all = stiffness.cwiseAbs();
   const Eigen::MatrixXd of_all = all * sizes;

@@ -24,6 +24,9 @@ bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen
 /// nine digits.
 Index count_soft(ConstVectorRef squares, double highest);
 
+/// S^T A S of the first `count` shapes S, to rounding of the entries of A.
+Eigen::MatrixXd soft_product(Index count, const SparseMatrix& matrix, const Eigen::MatrixXd& shapes);
+
 /// S^T K S of the first `count` shapes S, those of rigid and soft motion, to rounding of the entries of K. The
 /// eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn shapes of similar
 /// frequency into one another, and move a free body by kappa t^2/6 of its way if kappa is the error of omega^2. Entries

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "butee/core/error.hpp"
 #include "butee/dynamics/modal_damping.hpp"
+#include "butee/dynamics/slow_modes.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/general_factor.hpp"
 #include "butee/linalg/general_pairs.hpp"
@@ -26,11 +28,13 @@ constexpr double kOnlyTilts = 1e-6;
 constexpr double kRigid = 1e-7;
 /// Eigenvalues that differ by less than this fraction are equal: rounding of the lowest in fine meshes.
 constexpr double kEqual = 1e-9;
-/// Frequencies below this fraction of |lambda| are rounding of two close real eigenvalues.
-constexpr double kOverdamped = 1e-6;
 constexpr const char* kNotFound = "the whirling modes could not be computed";
-/// Growth rates below these fractions of |lambda| and of the highest frequency are rounding.
-constexpr double kGrows = 1e-9, kGrowsOfHighest = 1e-14;
+/// Growth rates below this fraction of |lambda| are rounding.
+constexpr double kGrows = 1e-9;
+/// Rounding of dense eigenvalues as a fraction of the highest rate in the matrices.
+constexpr double kRoundingOfEigenvalues = 1e-14;
+/// Dense eigenvalues are not used where their rounding exceeds this fraction of the lowest frequency (chosen).
+constexpr double kMostRounding = 1e-7;
 
 /// A shift that allows rigid motion, rad/s: a thousandth of the lowest frequency of a DOF alone, above the rounding of
 /// the highest. DOFs without stiffness do not count.
@@ -145,11 +149,14 @@ Whirl::Whirl(const model::Model& model, Index dense)
   const auto pairs = linalg::dense_pairs(stiffness_, system_.mass);
   if (!pairs) throw RunError("the modes at rest could not be computed");
   shapes_ = pairs->vectors;
-  const double rounding = kRigid * kRigid * pairs->values.cwiseAbs().maxCoeff();
-  squares_ = (pairs->values.array() < 0.0 && pairs->values.array() > -rounding).select(0.0, pairs->values);
-  frequencies_ = squares_.cwiseAbs().cwiseSqrt();
+  const double highest = pairs->values.cwiseAbs().maxCoeff(), unlimited = std::numeric_limits<double>::infinity();
+  const Index soft = std::max(count_rigid(pairs->values, unlimited), count_soft(pairs->values, highest));
   const auto in_modes = [&](const SparseMatrix& matrix) {
-    return Eigen::MatrixXd(shapes_.transpose() * (or_zero(matrix, n) * shapes_));
+    Eigen::MatrixXd product = Eigen::MatrixXd::Zero(n, n);
+    if (matrix.nonZeros() == 0) return product;
+    product.noalias() = shapes_.transpose() * (matrix * shapes_);
+    product.topLeftCorner(soft, soft) = soft_product(soft, matrix, shapes_);
+    return product;
   };
   modal_damping_ = in_modes(damping_);
   if (const auto modal = ModalDamping::of(system_)) {
@@ -157,9 +164,21 @@ Whirl::Whirl(const model::Model& model, Index dense)
     modal->matrix().add_to(full, 1.0);
     modal_damping_ += shapes_.transpose() * full * shapes_;
   }
-  modal_skew_ = in_modes(skew_);
+  modal_stiffness_ = in_modes(skew_);
+  modal_stiffness_.diagonal().tail(n - soft) += pairs->values.tail(n - soft);
+  modal_stiffness_.topLeftCorner(soft, soft) += soft_stiffness(soft, unlimited, stiffness_, shapes_);
+  frequencies_ = modal_stiffness_.diagonal().cwiseAbs().cwiseSqrt();
   modal_gyroscopic_ = in_modes(system_.gyroscopic);
   modal_circulatory_ = in_modes(system_.circulatory);
+  // The slow modes of very short or light parts, or of strong damping, are rounding of the fast ones.
+  if (!system_.damping.is_modal() && rounding(0.0) > kMostRounding * slowest()) dense_ = -1;
+}
+
+double Whirl::slowest() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double frequency : frequencies_)
+    if (frequency > 0.0) least = std::min(least, frequency);
+  return least;
 }
 
 WhirlMode Whirl::finished(Complex lambda, Eigen::VectorXcd shape) const {
@@ -239,14 +258,15 @@ Index Whirl::count_to(double reach, double from, double to, Index count) const {
 
 Eigen::MatrixXd Whirl::modal_motion(double speed) const {
   const Index n = size();
-  const Vector scale = frequencies_.cwiseMax(kRigid * std::max(frequencies_.maxCoeff(), 1e-300));
+  // Rigid motion takes the scale of the slowest oscillation.
+  const double least = slowest();
+  const Vector scale = frequencies_.cwiseMax(std::isfinite(least) ? least : 1.0);
+  const Eigen::MatrixXd stiffness = modal_stiffness_ + speed * modal_circulatory_;
+  const Eigen::MatrixXd damping = modal_damping_ + speed * modal_gyroscopic_;
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   motion.topRightCorner(n, n) = scale.asDiagonal();
-  Eigen::MatrixXd stiffness = modal_skew_ + speed * modal_circulatory_;
-  stiffness.diagonal() += squares_;
   motion.bottomLeftCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * stiffness);
-  motion.bottomRightCorner(n, n) =
-      -(scale.cwiseInverse().asDiagonal() * (modal_damping_ + speed * modal_gyroscopic_) * scale.asDiagonal());
+  motion.bottomRightCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * damping * scale.asDiagonal());
   return motion;
 }
 
@@ -258,7 +278,7 @@ std::vector<Whirl::Eigenvalue> Whirl::in_order(const Eigen::VectorXcd& values) c
                    [](const Eigenvalue& a, const Eigenvalue& b) { return std::abs(a.lambda) < std::abs(b.lambda); });
   const double rigid = kRigid * frequencies_.maxCoeff();
   // Rigid motion has two eigenvalues 0, which rounding separates; some leave 0 if the structure turns.
-  Index rigid_left = 2 * (frequencies_.array() < rigid).count();
+  Index rigid_left = 2 * (frequencies_.array() == 0.0).count();
   for (Eigenvalue& one : ordered)
     if (std::abs(one.lambda) < rigid && rigid_left-- > 0) one.lambda = 0.0;
   return ordered;
@@ -297,20 +317,6 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   return modes;
 }
 
-std::vector<double> Whirl::oscillations(double speed, Index count) const {
-  std::vector<double> frequencies;
-  if (!is_dense()) {
-    for (const WhirlMode& mode : lowest_modes(speed, count))
-      if (mode.frequency() > 0.0) frequencies.push_back(mode.frequency());
-    std::sort(frequencies.begin(), frequencies.end());
-    return frequencies;
-  }
-  for (const Complex lambda : eigenvalues(speed, 2 * size()))
-    if (lambda.imag() > kOverdamped * std::abs(lambda)) frequencies.push_back(lambda.imag());
-  std::sort(frequencies.begin(), frequencies.end(), std::greater<>());
-  return frequencies;
-}
-
 std::vector<Complex> Whirl::eigenvalues(double speed, Index count) const {
   std::vector<Complex> values;
   if (!is_dense()) {
@@ -324,9 +330,14 @@ std::vector<Complex> Whirl::eigenvalues(double speed, Index count) const {
   return values;
 }
 
+double Whirl::rounding(double speed) const {
+  if (!is_dense() || size() == 0) return 0.0;
+  const double of_damping = modal_damping_.cwiseAbs().maxCoeff(), of_turning = modal_gyroscopic_.cwiseAbs().maxCoeff();
+  return kRoundingOfEigenvalues * std::max({frequencies_.maxCoeff(), of_damping, std::abs(speed) * of_turning});
+}
+
 double Whirl::growth(Complex lambda) const {
-  const double highest = is_dense() ? frequencies_.maxCoeff() : 0.0;
-  return lambda.real() - kGrows * std::abs(lambda) - kGrowsOfHighest * highest;
+  return lambda.real() - kGrows * std::abs(lambda) - rounding(0.0);
 }
 
 }  // namespace butee::dynamics

@@ -53,9 +53,9 @@ struct ModesAtSpeed {
 /// The eigenvalue problem (lambda^2 M + lambda (C + Omega G) + K + Omega W) x = 0 of a model at any speed Omega.
 ///
 /// Up to a number of free DOFs (kDense unless stated) all modes are found densely, in the modes of M and K at rest,
-/// which keeps the low ones exact to rounding of the highest frequency; for more DOFs the lowest modes are
-/// found by Arnoldi's method (Spectra) on the inverse, factorized by KLU. Checked against closed
-/// forms and published rotors in tests/verification/rotor_test.cpp.
+/// which keeps the low ones exact to rounding of the highest frequency; for more DOFs, or if that rounding exceeds 1e-7
+/// of the lowest frequency, the lowest modes are found by Arnoldi's method (Spectra) on the inverse, factorized by KLU.
+/// Checked against closed forms and published rotors in tests/verification/rotor_test.cpp.
 class BUTEE_EXPORT Whirl {
  public:
   static constexpr Index kDense = 400;
@@ -105,23 +105,24 @@ class BUTEE_EXPORT Whirl {
   Eigen::MatrixXd modal_motion(double speed) const;
   /// Those of `values` with Im >= 0, the smallest first; rigid motion has exactly 0.
   std::vector<Eigenvalue> in_order(const Eigen::VectorXcd& values) const;
-  /// The frequencies of modes that oscillate, rad/s: if the problem is dense, of all of them, descending, since modes
-  /// near critical damping appear and disappear at frequency 0; else of the lowest `count` modes, ascending.
-  std::vector<double> oscillations(double speed, Index count) const;
   /// The eigenvalues of the modes of lowest |lambda|.
   std::vector<std::complex<double>> eigenvalues(double speed, Index count) const;
   /// The speed near `side`, where `mode` grows, at which its Re lambda is zero.
   double border_near(double side, const WhirlMode& mode, Index count) const;
   /// Re lambda less what may be rounding.
   double growth(std::complex<double> lambda) const;
+  /// The lowest of frequencies_ above 0, rad/s; infinite if there is none.
+  double slowest() const;
+  /// The rounding of dense eigenvalues at a speed, 1/s; 0 if they are not dense.
+  double rounding(double speed) const;
   WhirlMode finished(std::complex<double> lambda, Eigen::VectorXcd shape) const;
 
   model::System system_;
-  Index dense_;                              ///< the largest number of DOFs for dense matrices
+  Index dense_;  ///< the largest number of DOFs for dense matrices; -1: rounding does not allow them
   SparseMatrix damping_, stiffness_, skew_;  ///< C, the symmetric part of K and its skew part, at rest
-  Vector squares_;                           ///< eigenvalues of M and the symmetric part of K, for dense problems
-  Vector frequencies_;                       ///< of M and the symmetric part of K, for dense problems
-  Eigen::MatrixXd shapes_, modal_damping_, modal_skew_, modal_gyroscopic_, modal_circulatory_;
+  // For dense problems, in the modes of M and the symmetric part of K at rest:
+  Vector frequencies_;  ///< rad/s, 0 for rigid motion
+  Eigen::MatrixXd shapes_, modal_damping_, modal_stiffness_, modal_gyroscopic_, modal_circulatory_;
 };
 
 }  // namespace butee::dynamics

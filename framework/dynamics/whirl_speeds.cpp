@@ -14,12 +14,14 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Modes with this damping ratio or more have no critical speed.
-constexpr double kNoResonance = 0.99;
+constexpr double kNoResonance = 0.9;
 /// Relative tolerance of speeds, and of those at which stability changes.
 constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-8;
 /// Crossings closer to each other than this, relative to the speed, belong to one mode or several
 /// equal ones.
 constexpr double kOneCrossing = 1e-8;
+/// A mode is on the line if its frequency differs from it by less than this fraction (chosen).
+constexpr double kAtLine = 1e-6;
 /// Growth is counted above a rounding level, and ends at zero: the distance of the two speeds by which the slope of the
 /// growth rate is measured, and the largest shift, relative to the speed (chosen).
 constexpr double kAside = 1e-4, kLargestShift = 1e-2;
@@ -47,7 +49,9 @@ class Search {
   /// Takes a change between two close speeds.
   using Add = std::function<void(const Tally&, const Tally&)>;
 
-  Search(At at, Add add, double tolerance) : at_(std::move(at)), add_(std::move(add)), tolerance_(tolerance) {}
+  /// `tolerance` is that of speeds, relative; margins below `rounding` are not known.
+  Search(At at, Add add, double tolerance, double rounding)
+      : at_(std::move(at)), add_(std::move(add)), tolerance_(tolerance), rounding_(rounding) {}
 
   void between(const Tally& a, const Tally& b) const { find(a, b, false); }
 
@@ -55,28 +59,36 @@ class Search {
   /// Secants find one change; if rounding moves it, the interval is halved.
   void find(const Tally& a, const Tally& b, bool halves) const {
     if (a.count() == b.count()) return;
+    const double at_a = margin_of_change(a, b, a), at_b = margin_of_change(a, b, b);
+    const bool is_rounding = std::max(std::abs(at_a), std::abs(at_b)) <= rounding_;
     const double same = tolerance_ * std::abs(b.speed), middle = 0.5 * (a.speed + b.speed);
-    if (b.speed - a.speed <= same || middle <= a.speed || middle >= b.speed) return add_(a, b);
+    if (is_rounding || b.speed - a.speed <= same || middle <= a.speed || middle >= b.speed) return add_(a, b);
     if (halves || b.speed - a.speed <= 4.0 * same) {
       const Tally between = at_(middle);
       find(a, between, true);
       find(between, b, true);
       return;
     }
-    const double change = change_between(a, b);
-    const Tally before = at_(std::max(a.speed, change - 0.45 * same)),
-                after = at_(std::min(b.speed, change + 0.45 * same));
+    // Beside the change the margins exceed their rounding.
+    const double change = change_between(a, b), slope = std::abs(at_b - at_a) / (b.speed - a.speed),
+                 aside = std::max(0.45 * same, 4.0 * rounding_ / slope);
+    const Tally before = at_(std::max(a.speed, change - aside)), after = at_(std::min(b.speed, change + aside));
     const bool is_found = before.count() != after.count();
     find(a, before, !is_found);
     find(before, after, true);
     find(after, b, !is_found);
   }
 
+  /// The margin at `which` of the first mode that changes its sign between two speeds.
+  static double margin_of_change(const Tally& a, const Tally& b, const Tally& which) {
+    return which.margin(std::min(a.count(), b.count()));
+  }
+
   double change_between(const Tally& a, const Tally& b) const {
     const Index k = std::min(a.count(), b.count());
     double low = a.speed, high = b.speed, last = low, next = high, at_last = a.margin(k), at_next = b.margin(k);
     const bool is_positive_below = at_last > 0.0;
-    for (int i = 0; i < kMostSecants && at_next != 0.0; ++i) {
+    for (int i = 0; i < kMostSecants && std::abs(at_next) > 0.1 * rounding_; ++i) {
       double speed = next - at_next * (next - last) / (at_next - at_last);
       if (!(speed > low && speed < high)) speed = 0.5 * (low + high);
       if (std::abs(speed - next) <= 0.1 * tolerance_ * std::abs(speed)) return speed;
@@ -89,7 +101,7 @@ class Search {
 
   At at_;
   Add add_;
-  double tolerance_;
+  double tolerance_, rounding_;
 };
 
 }  // namespace
@@ -106,25 +118,35 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
     const double middle = 0.5 * (a.speed + b.speed);
     auto near = modes(b.speed, is_dense() ? 2 * size() : count);
     std::stable_sort(near.begin(), near.end(), [&](const auto& p, const auto& q) {
-      return std::abs(p.frequency() - order * b.speed) < std::abs(q.frequency() - order * b.speed);
+      return std::abs(p.frequency() - order * std::abs(b.speed)) < std::abs(q.frequency() - order * std::abs(b.speed));
     });
-    // A nearly critically damped mode has no resonance, whether its frequency crosses the speed or
-    // its oscillation ends.
-    if (near.front().damping_ratio() > kNoResonance) return;
+    // A mode whose damping passes kNoResonance changes the number, too, and crosses nothing.
+    const double largest = kAtLine * order * std::abs(b.speed);
     Crossing crossing{middle, {}, b.count() - a.count()};
     for (const WhirlMode& mode : near)
-      if (mode.damping_ratio() <= kNoResonance) crossing.near.push_back({middle, mode.direction, mode.motion});
-    crossings.push_back(std::move(crossing));
+      if (mode.damping_ratio() <= kNoResonance && std::abs(mode.frequency() - order * std::abs(b.speed)) <= largest)
+        crossing.near.push_back({middle, mode.direction, mode.motion});
+    if (!crossing.near.empty()) crossings.push_back(std::move(crossing));
   };
   // Counted are the frequencies above the line order times speed or, if only the lowest are known, those below it.
+  // Modes near critical damping have no resonance and count as above it: those that turning parts damp have frequencies
+  // proportional to the speed, and would leave the line at speed 0. A pair of real eigenvalues counts as one of them.
   const double sign = is_dense() ? 1.0 : -1.0;
   const auto at = [&](double speed) {
     const double line = order * std::abs(speed);
-    Tally tally{speed, oscillations(speed, count), -line};
-    for (double& value : tally.margins) value = sign * (value - line);
+    Tally tally{speed, {}, -line};
+    bool is_second = false;
+    for (const Complex lambda : eigenvalues(speed, is_dense() ? 2 * size() : count)) {
+      const bool is_real = lambda.imag() == 0.0;
+      if (is_real) is_second = !is_second;
+      if (lambda == 0.0 || (is_real && is_second)) continue;
+      const double beyond = -lambda.real() - kNoResonance * std::abs(lambda);
+      tally.margins.push_back(sign * std::max(lambda.imag() - line, beyond));
+    }
+    std::sort(tally.margins.begin(), tally.margins.end(), std::greater<>());
     return tally;
   };
-  const Search search(at, add, kSameSpeed);
+  const Search search(at, add, kSameSpeed, rounding(std::max(std::abs(from), std::abs(to))));
   Tally before = at(from);
   for (Index i = 1; i <= steps; ++i) {
     Tally next = at(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
@@ -170,12 +192,14 @@ std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<ModesAtS
     const bool begins = b.count() > a.count();
     const double side = begins ? b.speed : a.speed;
     std::vector<WhirlMode> growing = modes(side, all);
-    std::erase_if(growing, [&](const WhirlMode& mode) { return !grows(mode.lambda); });
-    const auto slowest = std::min_element(
-        growing.begin(), growing.end(), [](const auto& p, const auto& q) { return p.lambda.real() < q.lambda.real(); });
-    if (slowest != growing.end()) found.push_back({border_near(side, *slowest, all), begins, *slowest});
+    std::stable_sort(growing.begin(), growing.end(),
+                     [&](const auto& p, const auto& q) { return growth(p.lambda) > growth(q.lambda); });
+    const auto last = static_cast<std::size_t>(std::max(a.count(), b.count()) - 1);
+    if (last < growing.size()) found.push_back({border_near(side, growing[last], all), begins, growing[last]});
   };
-  const Search search([&](double speed) { return tally_of(speed, eigenvalues(speed, all)); }, add, kSameBorder);
+  const Search search(
+      [&](double speed) { return tally_of(speed, eigenvalues(speed, all)); }, add, kSameBorder,
+      grid.empty() ? 0.0 : rounding(std::max(std::abs(grid.front().speed), std::abs(grid.back().speed))));
   for (std::size_t i = 1; i < grid.size(); ++i)
     search.between(tally_of(grid[i - 1].speed, grid[i - 1].eigenvalues), tally_of(grid[i].speed, grid[i].eigenvalues));
   return found;

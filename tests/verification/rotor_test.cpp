@@ -195,6 +195,63 @@ TEST(PinnedShaft, IsMetByBothSensesOfWhirlAtOneCriticalSpeed) {
   }
 }
 
+/// A shaft with external damping c_m and internal damping c_i grows above w + c_m/(c_i w), for any mesh. The damping of
+/// a fine one is 1e10 times as fast as the growth beside that speed, and its fast modes turn with the shaft at rates
+/// near the speed.
+TEST(PinnedShaft, LosesStabilityAtTheSameSpeedInFineMeshes) {
+  constexpr double kLength = 1.0, kRadius = 0.01, kOuter = 1.0, kInner = 1e-5;
+  const double w = pi * pi / (kLength * kLength) * std::sqrt(2.0e11 * kRadius * kRadius / 4.0 / 7800.0),
+               border = w + kOuter / (kInner * w);
+  for (const int elements : {10, 24, 30}) {
+    SceneRun run(steel("euler", elements, kLength, kRadius, "young_modulus = 2.0e11\ndensity = 7800.0") +
+                 "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n[damping]\n"
+                 "mass_proportional = 1.0\nrotating_stiffness_proportional = 1e-5\n" +
+                 turning(1.0));
+    const dynamics::Whirl whirl(run.model());
+    for (const double end : {660.0, 800.0}) {
+      const auto borders = whirl.stability_borders({whirl.modes_at(600.0, 4), whirl.modes_at(end, 4)}, 4);
+      ASSERT_EQ(borders.size(), 1U) << elements;
+      EXPECT_TRUE(borders[0].begins);
+      EXPECT_NEAR(borders[0].mode.direction, 1.0, 1e-6);
+      EXPECT_NEAR(borders[0].speed, border, 2e-5 * border) << elements;
+    }
+    const auto critical = whirl.critical_speeds(0.0, 800.0, 4, 1.0, 4);
+    ASSERT_EQ(critical.size(), 2U) << elements;
+    for (const auto& at : critical) EXPECT_NEAR(at.speed, w, 2e-5 * w) << elements;
+  }
+}
+
+/// The frequencies of a shaft do not depend on a short element, or on hardly any mass between bodies: the highest ones
+/// are 1e7 times the lowest.
+TEST(PinnedShaft, KeepsItsSlowModesBesideVeryFastOnes) {
+  const auto scene = [](const std::string& coordinates, const std::string& middle, const std::string& density) {
+    std::string text = steel("euler", 4, 1.0, 0.01, "young_modulus = 2.0e11\ndensity = " + density);
+    const std::string even = "length   = 1.000000\nelements = 4\n";
+    text.replace(text.find(even), even.size(), "coordinates = " + coordinates + "\n");
+    return text + disc(middle, 5.0, 0.01, 0.02) +
+           "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n[damping]\n"
+           "mass_proportional = 1.0\nrotating_stiffness_proportional = 4e-4\n" +
+           turning(1.0);
+  };
+  const auto lowest = [&](const std::string& coordinates, const std::string& middle, const std::string& density) {
+    SceneRun run(scene(coordinates, middle, density));
+    const dynamics::Whirl whirl(run.model());
+    auto speeds = frequencies(whirl.modes(80.0, 4));
+    for (const auto& at : whirl.critical_speeds(0.0, 400.0, 8, 1.0, 8)) speeds.push_back(at.speed);
+    for (const auto& border : whirl.stability_borders({whirl.modes_at(50.0, 8), whirl.modes_at(200.0, 8)}, 8))
+      speeds.push_back(border.speed);
+    return speeds;
+  };
+  const std::vector<double> even = lowest("[0.0, 0.25, 0.5, 0.75, 1.0]", ":2", "7800.0");
+  ASSERT_EQ(even.size(), 7U);  // two critical speeds and the border behind the modes
+  for (const char* first : {"0.002", "0.0005"})
+    expect_all(lowest("[0.0, " + std::string(first) + ", 0.25, 0.5, 0.75, 1.0]", ":3", "7800.0"), even, 1.0, 1e-3);
+  const std::vector<double> light = lowest("[0.0, 0.25, 0.5, 0.75, 1.0]", ":2", "1e-6");
+  ASSERT_EQ(light.size(), 7U);
+  // 48 E I/(m l^3)
+  EXPECT_NEAR(light[4], std::sqrt(48.0 * 2.0e11 * pi * 1e-8 / 4.0 / 5.0), 2e-4 * 123.0);
+}
+
 /// A shaft of length l held at its first node also crosses the speed of rotation in torsion, at pi/2 sqrt(G/rho)/l, and
 /// along its axis, at pi/2 sqrt(E/rho)/l.
 TEST(PinnedShaft, NamesCriticalSpeedsOfTorsionAndAxialMotion) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <butee/core/format.hpp>
 #include <butee/core/text.hpp>
@@ -164,27 +165,38 @@ std::string campbell_csv(const Campbell& diagram) {
 }
 
 bool draw(const Campbell& diagram, const record::ResultFolder& folder) {
-  std::string data;
-  for (const bool forward : {true, false}) {
+  struct Group {
+    const char *name, *point;
+  };
+  constexpr Group kGroups[] = {
+      {"forward", "pt 7 ps 0.4 lc rgb '#1f77b4'"},   {"backward", "pt 6 ps 0.4 lc rgb '#d62728'"},
+      {"mixed", "pt 8 ps 0.5 lc rgb '#9467bd'"},     {"planar", "pt 5 ps 0.3 lc rgb '#2ca02c'"},
+      {"torsional", "pt 1 ps 0.5 lc rgb '#ff7f0e'"}, {"axial", "pt 2 ps 0.5 lc rgb '#8c564b'"}};
+  std::string data, plot = "plot ";
+  std::vector<std::string> entries;
+  const auto add = [&](const std::string& points, const std::string& name, const std::string& style) {
+    plot += formatted("'campbell.dat' index %zu w p ", entries.size()) + style + " title '" + name + "', ";
+    data += points + "\n\n";
+    entries.push_back(name);
+  };
+  for (const Group& group : kGroups) {
+    std::string points;
     for (std::size_t i = 0; i < diagram.speeds.size(); ++i)
       for (const dynamics::WhirlMode& mode : diagram.modes[i])
-        if ((mode.direction * diagram.speeds[i] >= 0.0) == forward && mode.frequency() > 0.0)
-          data += formatted("%.9g %.9g\n", diagram.speeds[i], mode.frequency());
-    data += "\n\n";
+        if (std::string_view(sense_of(mode, diagram.speeds[i])) == group.name)
+          points += formatted("%.9g %.9g\n", diagram.speeds[i], mode.frequency());
+    if (!points.empty()) add(points, group.name, group.point);
   }
-  for (const dynamics::CriticalSpeed& critical : diagram.critical)
-    data += formatted("%.9g %.9g\n", critical.speed, diagram.order * std::abs(critical.speed));
+  if (!diagram.critical.empty()) {
+    std::string points;
+    for (const dynamics::CriticalSpeed& critical : diagram.critical)
+      points += formatted("%.9g %.9g\n", critical.speed, diagram.order * std::abs(critical.speed));
+    add(points, "critical speeds", "pt 4 ps 1.2 lc rgb 'black'");
+  }
   folder.write("campbell.dat", data);
   const std::string line = formatted("%.9g*abs(x)", diagram.order), order = "order " + to_short_text(diagram.order);
-  std::vector<std::string> entries = {"forward", "backward", order};
-  std::string plot =
-      "plot 'campbell.dat' index 0 w p pt 7 ps 0.4 lc rgb '#1f77b4' title 'forward', "
-      "'campbell.dat' index 1 w p pt 6 ps 0.4 lc rgb '#d62728' title 'backward', " +
-      line + " w l lc rgb '#808080' title " + gnuplot::quoted(order);
-  if (!diagram.critical.empty()) {
-    entries.emplace_back("critical speeds");
-    plot += ", 'campbell.dat' index 2 w p pt 4 ps 1.2 lc rgb 'black' title 'critical speeds'";
-  }
+  entries.push_back(order);
+  plot += line + " w l lc rgb '#808080' title " + gnuplot::quoted(order);
   constexpr double kShape = 0.7;
   // Modes far above the line of the order would flatten the crossings.
   const double fastest = std::max(std::abs(diagram.speeds.front()), std::abs(diagram.speeds.back()));
