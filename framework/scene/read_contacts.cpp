@@ -2,6 +2,7 @@
 
 #include "butee/config/number_file.hpp"
 #include "butee/scene/contact_tables.hpp"
+#include "butee/scene/keys_of_others.hpp"
 #include "butee/scene/scene_reader.hpp"
 #include "butee/scene/turning_parts.hpp"
 
@@ -140,7 +141,8 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
   const ContactKind kind = contact_kind(entry, path);
   if (entry.table() == nullptr) return;
   const std::vector<config::Parameter> parameters = kind.parameters(*entry.table());
-  const std::vector<std::string> keys = names_of(parameters), others = kind.ignored(types_);
+  const std::vector<std::string> keys = names_of(parameters);
+  std::vector<std::string> others = kind.ignored(types_);
   for (const std::string& key : kind.law != nullptr ? names_of(kind.law->parameters) : std::vector<std::string>())
     if (std::count(keys.begin(), keys.end(), key) > 1 || key == "type" || key == "law") {
       const Value* law = entry.table()->find("law");
@@ -149,6 +151,10 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
                              ", a key that contacts have themselves; its module must rename it");
       return;
     }
+  if (kind.law != nullptr) {
+    others.insert(others.end(), keys.begin(), keys.end());
+    report_keys_of_others(entry, path, "law = \"" + kind.law_name + "\"", types_.laws, others, diagnostics_);
+  }
   const auto p = read_table(entry, path, parameters, others);
   if (!p || kind.name.empty()) return;
   if (p->has("nodes") == p->has("between")) {

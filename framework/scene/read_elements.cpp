@@ -2,6 +2,7 @@
 
 #include "butee/core/memory.hpp"
 #include "butee/core/text.hpp"
+#include "butee/scene/keys_of_others.hpp"
 #include "butee/scene/scene_reader.hpp"
 
 namespace butee::scene {
@@ -113,7 +114,10 @@ std::optional<SceneReader::PendingElement> SceneReader::read_element(const Value
 
   std::vector<config::Parameter> declared = type.parameters;
   declared.insert(declared.begin(), config::text("name", "the name of the element").optional());
-  auto parameters = read_parameters(entry, path, declared, diagnostics_, {"type"});
+  std::vector<std::string> known = config::names_of(declared);
+  known.emplace_back("type");
+  report_keys_of_others(entry, path, "type = \"" + *type_name + "\"", types_.elements, known, diagnostics_);
+  auto parameters = read_parameters(entry, path, declared, diagnostics_, known);
   if (!parameters || too_large_) return std::nullopt;
 
   const std::size_t errors_before = diagnostics_.error_count();

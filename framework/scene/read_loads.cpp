@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "butee/core/text.hpp"
+#include "butee/scene/keys_of_others.hpp"
 #include "butee/scene/scene_reader.hpp"
 
 namespace butee::scene {
@@ -124,6 +125,8 @@ std::unique_ptr<TimeFunction> SceneReader::read_in_time(const Value& entry, cons
   const LoadType& type = *find_type(types_.loads, *name);
   std::vector<std::string> skipped = ignored;
   skipped.emplace_back("type");
+  for (const std::string& key : names_of(type.parameters)) skipped.push_back(key);
+  report_keys_of_others(entry, path, "type = \"" + *name + "\"", types_.loads, skipped, diagnostics_);
   const auto p = read_parameters(entry, path, type.parameters, diagnostics_, skipped);
   return p ? type.make(*p, diagnostics_) : nullptr;
 }

@@ -70,7 +70,7 @@ std::vector<BadScene> bad_contact_scenes() {
        {"contact[0].gap = -0.01: must be >= 0 (m)", "contact[0].law = \"arctn\": must be one of"}},
       {"regularization of the linear law",
        {{"law = \"arctan\"", "law = \"linear\""}, {"regularization = 7.0e7", "regularization = 7.0e7 #!"}},
-       {"contact[0].regularization = 7e+07: unknown key", "known here: ", "stiffness"}},
+       {"contact[0].regularization = 7e+07: is no key of law = \"linear\"; it belongs to arctan: remove it"}},
       {"regularization missing",
        {{"[[contact]]", "[[contact]] #!"}, {"regularization = 7.0e7\n", ""}},
        {"contact[0].regularization: missing; give lambda"}},

@@ -23,7 +23,7 @@ std::vector<BadScene> bad_load_scenes() {
        {"load[0].type = \"harmonics\": must be one of", "load[0].node = \"string:9\""}},
       {"key of another load",
        {{"amplitude = 300.0", "amplitude = 300.0\nvalue = 3 #!"}},
-       {"load[0].value = 3: unknown key", "known here: amplitude, angular_frequency, phase, node, dof, type"}},
+       {"load[0].value = 3: is no key of type = \"harmonic\"; it belongs to constant: remove it"}},
       {"amplitude missing",
        {{"[[load]]", "[[load]] #!"}, {"amplitude = 300.0\n", ""}},
        {"load[0].amplitude: missing; give the amplitude (N m on theta) (number, N)"}},
