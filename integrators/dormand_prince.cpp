@@ -33,6 +33,8 @@ DormandPrince::DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal)
                 .constant = kConstant,
                 .contact_change = kContactChange,
                 .kink = kKink,
+                .stable_turn = kStabilityLimit,
+                .stable_decay = kDampingLimit,
                 .share = 0.05},
                LocalErrorControl::Steps::any),
       stiffness_("dopri5", kLimit) {

@@ -26,6 +26,8 @@ Extrapolation::Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal)
                 .kink = kKink,
                 .stability = kLimit,
                 .damping = kLongest,
+                .stable_turn = kLimit,
+                .stable_decay = kDampingLimit,
                 .share = 0.002},
                LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());

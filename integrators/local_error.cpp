@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "butee/dynamics/frequencies.hpp"
 #include "integrators/fastest_rates.hpp"
 
 namespace butee::integrators {
@@ -51,6 +52,8 @@ constexpr double kNearRounding = 1e-14, kQuiet = 1e-3;
 /// displacements: they are rounding, and so are errors below kStillError times these. A control of them would follow
 /// vibrations of rounding at the highest frequency.
 constexpr double kStill = 1e-10, kStillError = 1e-12;
+/// The part of the longest stable step that explicit methods take at rest (chosen).
+constexpr double kStableAtRest = 0.8;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -201,6 +204,21 @@ bool LocalErrorControl::rests(const time::State& to, ConstVectorRef error_x, Con
          (error_v.array().abs() <= kStillError * rate_ * work_.array()).all();
 }
 
+double LocalErrorControl::longest_at_rest() {
+  if (std::isinf(orders_.stable_turn)) return std::numeric_limits<double>::infinity();
+  if (longest_at_rest_) return *longest_at_rest_;
+  const model::System& system = dynamics_.system();
+  SparseMatrix damping =
+      system.damping.mass_proportional * system.mass + system.damping.stiffness_proportional * system.stiffness;
+  if (system.dashpots.size() > 0) damping += system.dashpots;
+  const auto range = dynamics::frequency_range(system, dynamics::StopState::closed);
+  const double decay = dynamics::fastest_decay(damping, system.mass).value_or(0.0);
+  const double by_turn = range && range->highest > 0.0 ? orders_.stable_turn / range->highest : longest_,
+               by_decay = decay > 0.0 ? orders_.stable_decay / decay : longest_;
+  longest_at_rest_ = std::min(longest_, kStableAtRest * std::min(by_turn, by_decay));
+  return *longest_at_rest_;
+}
+
 double LocalErrorControl::norm(ConstVectorRef y) {
   dynamics_.inertia_force(y, work_);
   return std::sqrt(std::max(0.0, y.dot(work_)));
@@ -239,8 +257,8 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     to.memory[kOld] = kSmallest;
     to.memory[kAccount] = balance;
     report.error = kSmallest;
-    report.proposal =
-        steps_ == Steps::any ? any_step(h, 0.0, 1.0, orders_.method) : grid_step(h, 0.0, orders_.estimate);
+    report.proposal = std::min(longest_at_rest(), steps_ == Steps::any ? any_step(h, 0.0, 1.0, orders_.method)
+                                                                       : grid_step(h, 0.0, orders_.estimate));
     return;
   }
   if (!as_a_whole_ && epsilon > smooth && rate_ > 0.0) {

@@ -35,6 +35,8 @@ constexpr double kGrows = 1e-9;
 constexpr double kRoundingOfEigenvalues = 1e-14;
 /// Dense eigenvalues are not used where their rounding exceeds this fraction of the lowest frequency (chosen).
 constexpr double kMostRounding = 1e-7;
+/// With fewer DOFs Arnoldi's method would not find all modes that are asked for (chosen).
+constexpr Index kFewest = 12;
 
 /// A shift that allows rigid motion, rad/s: a thousandth of the lowest frequency of a DOF alone, above the rounding of
 /// the highest. DOFs without stiffness do not count.
@@ -171,7 +173,7 @@ Whirl::Whirl(const model::Model& model, Index dense)
   modal_gyroscopic_ = in_modes(system_.gyroscopic);
   modal_circulatory_ = in_modes(system_.circulatory);
   // The slow modes of very short or light parts, or of strong damping, are rounding of the fast ones.
-  if (!system_.damping.is_modal() && rounding(0.0) > kMostRounding * slowest()) dense_ = -1;
+  if (n >= kFewest && !system_.damping.is_modal() && rounding(0.0) > kMostRounding * slowest()) dense_ = -1;
 }
 
 double Whirl::slowest() const {

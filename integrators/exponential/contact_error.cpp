@@ -22,7 +22,6 @@ ContactError::ContactError(const model::System& system, const dynamics::ModalSys
                            const ResidualErrors& residual)
     : modal_(modal),
       goal_(goal),
-      contacts_(contacts),
       bounds_(bounds),
       scales_(scales),
       iteration_(iteration),

@@ -47,7 +47,6 @@ class ContactError {
 
   const dynamics::ModalSystem& modal_;
   const StepGoal& goal_;
-  const std::vector<ContactForce>& contacts_;
   const DisplacementBounds& bounds_;
   const ContactScales& scales_;
   const ContactIteration& iteration_;
