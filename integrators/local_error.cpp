@@ -84,7 +84,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   first_step_ = rates.open > 0.0 ? 0.1 / rates.open : 1e-6 * std::min(1.0, goal.run_time);
   omega_ = rates.closed;
   rate_ = fastest_ = rates.any();
-  if (!as_a_whole_) rounding_.emplace(dynamics, goal.tolerance, rate_, std::isinf(orders.stability));
+  if (!as_a_whole_) rounding_.emplace(dynamics, goal.tolerance, rate_);
   for (const model::FreeLoad& load : system.loads)
     if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0) {
       first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
@@ -204,9 +204,9 @@ bool LocalErrorControl::rests(const time::State& to, ConstVectorRef error_x, Con
          (error_v.array().abs() <= kStillError * rate_ * work_.array()).all();
 }
 
-double LocalErrorControl::longest_at_rest() {
+double LocalErrorControl::longest_stable() {
   if (std::isinf(orders_.stable_turn)) return std::numeric_limits<double>::infinity();
-  if (longest_at_rest_) return *longest_at_rest_;
+  if (longest_stable_) return *longest_stable_;
   const model::System& system = dynamics_.system();
   SparseMatrix damping =
       system.damping.mass_proportional * system.mass + system.damping.stiffness_proportional * system.stiffness;
@@ -215,8 +215,8 @@ double LocalErrorControl::longest_at_rest() {
   const double decay = dynamics::fastest_decay(damping, system.mass).value_or(0.0);
   const double by_turn = range && range->highest > 0.0 ? orders_.stable_turn / range->highest : longest_,
                by_decay = decay > 0.0 ? orders_.stable_decay / decay : longest_;
-  longest_at_rest_ = std::min(longest_, kStableAtRest * std::min(by_turn, by_decay));
-  return *longest_at_rest_;
+  longest_stable_ = std::min(by_turn, by_decay);
+  return *longest_stable_;
 }
 
 double LocalErrorControl::norm(ConstVectorRef y) {
@@ -257,7 +257,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     to.memory[kOld] = kSmallest;
     to.memory[kAccount] = balance;
     report.error = kSmallest;
-    report.proposal = std::min(longest_at_rest(), steps_ == Steps::any ? any_step(h, 0.0, 1.0, orders_.method)
+    report.proposal = std::min(kStableAtRest * longest_stable(), steps_ == Steps::any ? any_step(h, 0.0, 1.0, orders_.method)
                                                                        : grid_step(h, 0.0, orders_.estimate));
     return;
   }
@@ -278,7 +278,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const auto allow_rounding = [&](double bound) {
     level_x_ = scale_x_;
     level_v_ = scale_v_;
-    rounding_->raise(from, to, h, bound, level_x_, level_v_);
+    rounding_->raise(from, to, h, longest_stable(), bound, level_x_, level_v_);
     epsilon = relative_error(h, error_x, error_v, level_x_, level_v_);
     r = error_ratio(from, to, h, epsilon, change, level_x_, charge);
   };

@@ -155,8 +155,8 @@ class LocalErrorControl {
   double unseen_start(const time::State& from, const time::State& to, double h, const Vector& scale_x);
   /// True if is_still() and the errors of the step are rounding, too.
   bool rests(const time::State& to, ConstVectorRef error_x, ConstVectorRef error_v);
-  /// The longest step in which an explicit method does not let vibrations of rounding grow, s; found at the first call.
-  double longest_at_rest();
+  /// The longest step in which no motion grows, s: infinite for implicit methods. Found at the first call.
+  double longest_stable();
   double norm(ConstVectorRef y);
   /// The relative error of the whole structure; updates the norms in the memory of `to`.
   double whole_error(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
@@ -182,7 +182,7 @@ class LocalErrorControl {
   double rate_ = 0.0;     ///< that, or the highest rate at which damping decelerates a DOF, 1/s
   double fastest_ = 0.0;  ///< that, or the highest frequency of a harmonic load, 1/s
   double longest_ = std::numeric_limits<double>::infinity();  ///< step by Orders::damping, s
-  std::optional<double> longest_at_rest_;
+  std::optional<double> longest_stable_;
   Steps steps_;
   ComponentScales scales_;
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s

@@ -14,28 +14,27 @@ namespace {
 constexpr double kRoundingOfMotion = 1e-14;
 /// Errors of a step below this part of a component, or of what the forces on it cause in the step, are rounding.
 constexpr double kRoundingOfStep = 1e-15;
-/// With explicit methods, errors of that size are rounding in steps below this part of 1/rate; in longer ones they may
-/// be the growth at a limit of stability.
-constexpr double kShortStep = 0.1;
+/// Errors of that size are rounding in steps below this part of the longest stable one; in longer ones they may be the
+/// growth at the limit of stability.
+constexpr double kShortStep = 0.5;
 
 }  // namespace
 
-RoundingLevel::RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate, bool is_stable)
+RoundingLevel::RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate)
     : dynamics_(dynamics),
       of_motion_(kRoundingOfMotion / tolerance),
       rate_(rate),
-      is_stable_(is_stable),
       is_lumped_(dynamics.system().mass.nonZeros() == dynamics.size()),
       root_mass_(dynamics.system().mass.diagonal().cwiseSqrt()),
       stop_stiffness_(dynamics.stops().closed_stiffness()),
       w0_(Vector::Zero(stop_stiffness_.size())),
       w1_(w0_) {}
 
-void RoundingLevel::raise(const time::State& from, const time::State& to, double h, double bound, Vector& scale_x,
-                          Vector& scale_v) {
+void RoundingLevel::raise(const time::State& from, const time::State& to, double h, double stable, double bound,
+                          Vector& scale_x, Vector& scale_v) {
   const double of_x = of_motion_ * root_mass_.cwiseProduct(scale_x).norm(),
                of_v = of_motion_ * root_mass_.cwiseProduct(scale_v).norm();
-  if (is_stable_ || h * rate_ < kShortStep) {
+  if (h < kShortStep * stable) {
     // In longer steps of an implicit method the elastic forces that follow take up those of rounding.
     const double time = rate_ > 0.0 ? std::min(h, 1.0 / rate_) : h;
     sum_forces(from, to);

@@ -9,13 +9,14 @@ namespace butee::integrators {
 /// move by the rounding of others only, and those of forces in balance. integrators/error-control.md, "Rounding".
 class RoundingLevel {
  public:
-  /// `dynamics` must outlive it. `rate`: the highest rate of a DOF with all stops closed, 1/s. `is_stable`: the method
-  /// has no limit of stability.
-  RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate, bool is_stable);
+  /// `dynamics` must outlive it. `rate`: the highest rate of a DOF with all stops closed, 1/s.
+  RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate);
 
   /// Raises the scales of displacements and velocities so that an error of rounding in the step from `from` to `to` of
-  /// length h, s, is at most the fraction `bound` of them, in any component.
-  void raise(const time::State& from, const time::State& to, double h, double bound, Vector& scale_x, Vector& scale_v);
+  /// length h, s, is at most the fraction `bound` of them, in any component. `stable`: the longest step in which no
+  /// motion grows; beyond half of it errors may be such growth and not rounding.
+  void raise(const time::State& from, const time::State& to, double h, double stable, double bound, Vector& scale_x,
+             Vector& scale_v);
 
  private:
   /// force_ := the sum of the magnitudes of the forces on each DOF, N or N m: of loads, stiffness, dashpots and
@@ -26,7 +27,6 @@ class RoundingLevel {
   dynamics::Dynamics& dynamics_;
   double of_motion_;  ///< rounding of the motion as a whole over the tolerance
   double rate_;
-  bool is_stable_;
   bool is_lumped_;    ///< M is diagonal
   Vector root_mass_;  ///< of the diagonal of M, kg^(1/2) or kg^(1/2) m
   Vector stop_stiffness_;

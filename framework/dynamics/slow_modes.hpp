@@ -31,7 +31,7 @@ Eigen::MatrixXd soft_product(Index count, const SparseMatrix& matrix, const Eige
 /// eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn shapes of similar
 /// frequency into one another, and move a free body by kappa t^2/6 of its way if kappa is the error of omega^2. Entries
 /// that are rounding of K, or turn no shape by more than 1e-9, are 0; so are those of the diagonal that are below 0 by
-/// rounding or do not act within `run_time` seconds.
+/// rounding or do not act within `run_time` seconds or, if that is infinite, are not above rounding.
 Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix& stiffness,
                                const Eigen::MatrixXd& shapes);
 

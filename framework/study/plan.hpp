@@ -21,6 +21,7 @@ struct Axis {
   std::optional<Range> range{};
   std::int64_t count = 0;  ///< number of values from one end of the range to the other; 0 for random plans
   std::string label{};     ///< for pictures; if empty, the key is used
+  std::string place{};     ///< file, line and key where a study gives it, for messages; may be empty
 
   /// True if all values are numbers.
   BUTEE_EXPORT bool is_numeric() const;

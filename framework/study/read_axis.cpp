@@ -21,6 +21,7 @@ class AxisReader {
   std::optional<Axis> read(const Parameters& p, const Value& table, PlanKind kind) {
     const std::string& path = p.path();
     Axis axis{p.text("key"), {}};
+    axis.place = describe(diagnostics_.document(), p.value("key").at) + ": " + path;
     if (p.has("label")) axis.label = p.text("label");
     if (axis.key.empty() || axis.key.find('=') != std::string::npos) {
       p.complain(diagnostics_, "key", "must be a key of the scene as --set takes it, such as load[0].amplitude");

@@ -273,11 +273,11 @@ bool is_study(const config::Document& document) {
 
 config::Document scene_at(const Study& study, const std::vector<Value>& values) {
   config::Document scene = study.scene;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    config::apply_override(
-        scene,
-        study.plan.axes()[i].key + "=" + config::to_toml(as_in_scene(study.scene, study.plan.axes()[i], values[i])),
-        kOfAxis);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Axis& axis = study.plan.axes()[i];
+    config::apply_override(scene, axis.key + "=" + config::to_toml(as_in_scene(study.scene, axis, values[i])),
+                           axis.place.empty() ? kOfAxis : axis.place + ": " + kOfAxis);
+  }
   // The study determines the end of its runs; until it is known, any end after the first step will
   // do.
   Table* integrator = (*scene.root.table())["integrator"].table();
