@@ -6,10 +6,6 @@
 namespace butee::integrators {
 namespace {
 
-/// The allowed error of a step by missed forces of closed stops, as a fraction of the tolerance (chosen), and the part
-/// of it below which it need not be known.
-constexpr double kMissed = 3.0, kLittle = 0.05;
-
 double lowest_frequency(const dynamics::ModalSystem& modal) {
   return modal.size() > 0 ? modal.frequencies().minCoeff() : 0.0;
 }
@@ -75,8 +71,7 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
 double ContactError::of_modes(const TriedStep& step) {
   if (!modes_.any() || !step.is_near) return 0.0;
   modes_.look(step.t_end, step.to);
-  const double missed = modes_.missed(step.h, kLittle * kMissed * goal_.tolerance) / (kMissed * goal_.tolerance);
-  return std::max(missed, modes_.error(step.h) / modes_.allowed(step.t_end));
+  return modes_.error(step.h) / modes_.allowed(step.t_end);
 }
 
 double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic,

@@ -35,7 +35,7 @@ class ContactError {
   /// The error of the step with its forces, m; `displacement` is the largest displacement of all
   /// stops, m.
   double of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement);
-  /// The error of the end of the step, which includes its forces, by modes that closed stops move (indicators 8 and 10),
+  /// The error of the end of the step, which includes its forces, by modes that closed stops move (indicator 8),
   /// relative to its bound.
   double of_modes(const TriedStep& step);
   /// Indicator 6, relative to the error bound of velocities: the residual force of a stop, whose speed scale is

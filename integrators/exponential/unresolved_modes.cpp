@@ -15,16 +15,14 @@ UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::Mo
       gaps_(gaps),
       scales_(system),
       account_(goal),
-      missed_(modal),
       is_possible_(modal.size() > 1 && !contacts.empty()),
       needs_speeds_(is_possible_ && jumps),
       squares_(modal.frequencies().square()),
       closed_(ArrayXd::Zero(modal.stop_count())),
       was_closed_(closed_) {
-  if (is_possible_) speeds_ = now_ = of_kind_ = Vector::Zero(modal.shapes().rows());
+  if (is_possible_) speeds_ = now_ = raised_ = of_kind_ = Vector::Zero(modal.shapes().rows());
   for (ArrayXd* of : {&unreceived_, &rates_, &amplitudes_, &rise_, &start_.q, &start_.v, &end_.q, &end_.v})
     of->setZero(modal.size());
-  stiffness_.setZero(modal.stop_count());
   for (Instant* instant : {&start_, &end_}) instant->w = gaps.gaps();
 }
 
@@ -55,7 +53,7 @@ void UnresolvedModes::begin(double t, const double* memory, const ModalState& st
   if (!any_) return;
   start_.set(t, state);
   find_rates(start_);
-  speeds_ = missed_.speeds();
+  speeds_ = raised_;
   is_of_start_ = true;
   energy_ = amplitudes_.square().sum();
 }
@@ -103,6 +101,7 @@ double UnresolvedModes::error(double h) {
 }
 
 void UnresolvedModes::find_rates(const Instant& at) {
+  constexpr double kExpected = 0.1;
   const ArrayXd& frequencies = modal_.frequencies();
   amplitudes_ = -squares_ * at.q - 2.0 * modal_.decay() * at.v;
   modal_.add_load(at.t, amplitudes_);
@@ -111,18 +110,16 @@ void UnresolvedModes::find_rates(const Instant& at) {
       amplitudes_ += modal_.stop_shapes().of(j).array() * contacts_[static_cast<std::size_t>(j)].force_at(at.w[j]);
   amplitudes_ = (frequencies > 0.0).select((at.v.square() + (amplitudes_ / frequencies).square()).sqrt(), 0.0);
   rise_.setZero(modal_.size());
-  stiffness_.setZero(modal_.stop_count());
-  for (Index j = 0; j < modal_.stop_count(); ++j) {
-    if (closed_[j] == 0.0 || was_closed_[j] == 0.0) continue;
-    stiffness_[j] = contacts_[static_cast<std::size_t>(j)].tangent_at(at.w[j]);
-    rise_ += stiffness_[j] * modal_.stop_shapes().of(j).array().square();
-  }
-  missed_.begin(amplitudes_, stiffness_, speeds_);
+  for (Index j = 0; j < modal_.stop_count(); ++j)
+    if (closed_[j] != 0.0 && was_closed_[j] != 0.0)
+      rise_ += contacts_[static_cast<std::size_t>(j)].tangent_at(at.w[j]) * modal_.stop_shapes().of(j).array().square();
   // The largest velocity of a component per unit of modal speed, relative to its scale.
   rates_.setZero(modal_.size());
-  const Vector& speeds = missed_.speeds();
-  for (Index d = 0; d < speeds.size(); ++d)
-    if (speeds[d] > 0.0) rates_ = rates_.max(modal_.shape_rows().col(d).array().abs() / speeds[d]);
+  for (Index d = 0; d < speeds_.size(); ++d) {
+    const auto shape = modal_.shape_rows().col(d).array();
+    raised_[d] = std::max(speeds_[d], kExpected * (shape * amplitudes_).matrix().norm());
+    if (raised_[d] > 0.0) rates_ = rates_.max(shape.abs() / raised_[d]);
+  }
   rates_ *= ((squares_ + rise_).sqrt() - frequencies) * amplitudes_;
 }
 

@@ -5,7 +5,6 @@
 #include "integrators/error_account.hpp"
 #include "integrators/exponential/contact_force.hpp"
 #include "integrators/exponential/contact_gaps.hpp"
-#include "integrators/exponential/missed_forces.hpp"
 
 namespace butee::integrators {
 
@@ -51,13 +50,13 @@ class UnresolvedModes {
   void look(double t, const ModalState& end);
   /// After a step was accepted.
   void keep() {
-    if (!is_of_start_) std::swap(start_, end_);
+    if (is_of_start_) return;
+    std::swap(start_, end_);
     is_of_start_ = true;
+    energy_ = amplitudes_.square().sum();
   }
   /// The error of a step of length h, relative to the largest velocity so far of the component that it affects most.
   double error(double h);
-  /// MissedForces::error()
-  double missed(double h, double enough) { return missed_.error(h, enough); }
   /// The largest error() of a step to t.
   double allowed(double t) const { return ErrorAccount::kSpend / kMacroStep * (account_.rate() * t - spent_); }
   void charge(double h) {
@@ -86,14 +85,14 @@ class UnresolvedModes {
   const ContactGaps& gaps_;
   ComponentScales scales_;
   ErrorAccount account_;
-  MissedForces missed_;
   bool is_possible_;        ///< the modes turn at different rates
   bool needs_speeds_;       ///< in every macro step
   Eigen::ArrayXd squares_;  ///< omega^2
   bool any_ = false;
   double spent_ = 0.0;
   Vector speeds_, now_;        ///< largest velocity of each DOF so far, the present one
-  Vector of_kind_;             ///< the largest of these velocities for the kind of each DOF
+  Vector raised_;              ///< speeds_, at least a part of those that the amplitudes will cause
+  Vector of_kind_;             ///< the largest of speeds_ for the kind of each DOF
   Eigen::ArrayXd closed_;      ///< the side on which each stop was closed at the start of the macro step; 0: open
   Eigen::ArrayXd was_closed_;  ///< the same for the macro step before
   Instant start_, end_;        ///< the instants at which amplitudes were found
@@ -102,7 +101,6 @@ class UnresolvedModes {
   Eigen::ArrayXd rates_;       ///< error of each mode per second if it does not feel the stops at all, 1/s
   Eigen::ArrayXd amplitudes_;  ///< of the modes' velocities, kg^(1/2) m/s
   Eigen::ArrayXd rise_;        ///< of omega^2 by the stops, 1/s^2
-  Vector stiffness_;           ///< of the stops that stay closed; 0: others, N/m
   Eigen::ArrayXd unreceived_;  ///< unreceived_part() of each mode for steps of unreceived_h_
   double unreceived_h_ = 0.0;  ///< s
 };

@@ -388,34 +388,6 @@ def unreceived():
     compare("unreceived_part: allowed and largest error", 0.1, worst, ">=", 2.0)
 
 
-def missed():
-    """The part of the displacement of a closed stop by a mode that the projection of its force leaves out."""
-    print("\nA mode that turns by theta in a step, at a closed stop: what the projection of its force leaves out")
-    power, growth = constant("kMissedPower"), constant("kMissedGrowth")
-    cubic, most = constant("kMissedCubic"), constant("kMostCubic")
-    s, w = gauss(0.0, 1.0)
-    p3 = lambda s: 20 * s ** 3 - 30 * s ** 2 + 12 * s - 1
-    worst_mean = worst_cubic = 0.0
-    for theta in (0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0, 30.0, 60.0, 200.0):
-        means, cubics = [], []
-        for phase in np.linspace(0.0, 2 * np.pi, 32, endpoint=False):
-            at, speed = lambda t: np.cos(theta * t + phase), lambda t: -theta * np.sin(theta * t + phase)
-            path = quartic_path(at(0), speed(0), at(1), speed(1), at(0.5), s)
-            means.append(np.sum(w * (at(s) - path)))
-            cubics.append(7 * np.sum(w * at(s) * p3(s)))
-        mean, third = np.sqrt(np.mean(np.square(means))), np.sqrt(np.mean(np.square(cubics)))
-        code = power * theta ** 6 / (1 + power * theta ** 6) * (1 + growth * theta)
-        code_cubic = min(cubic * theta ** 3, most)
-        note("   theta, mean, missed_mean, P_3, missed_cubic", theta, mean, code, third, code_cubic)
-        worst_mean, worst_cubic = max(worst_mean, mean / code), max(worst_cubic, third / code_cubic)
-    compare("missed_mean: largest mean over it", 1.1, worst_mean, ">=", 2.0)
-    compare("missed_cubic: largest coefficient over it", 1.02, worst_cubic, ">=", 1.1)
-    received = max(abs(np.sum(w * np.exp(1j * theta * s) * p3(s))) for theta in np.linspace(0.1, 60.0, 600))
-    compare("kMostReceived: largest |int P_3 e^(i theta s)|", constant("kMostReceived"), received, ">=", 1.1)
-    least = abs(np.sum(w * np.exp(0.1j * s) * p3(s))) / 0.1 ** 3
-    compare("kReceivedCubic: the same over theta^3, theta -> 0", constant("kReceivedCubic"), least, "=", 1.01)
-
-
 def residual_force():
     print("\nResidual force of the law arctan, R(y)/R = y atan(1/y), y = |g|/bend")
     departs = lambda y: 1 - y * np.arctan(1 / y)
@@ -480,7 +452,6 @@ sweeps()
 local_orders()
 changes_of_contact()
 unreceived()
-missed()
 residual_force()
 series()
 print(f"\n{failures} values differ" if failures else "\nno value differs but for the open points of THEORY.md")
