@@ -18,26 +18,39 @@ ContactError::ContactError(const model::System& system, const dynamics::ModalSys
                            const ResidualErrors& residual)
     : modal_(modal),
       goal_(goal),
+      contacts_(contacts),
       bounds_(bounds),
       scales_(scales),
       iteration_(iteration),
       residual_(residual),
       accounts_(account_goal(goal, lowest_frequency(modal)), static_cast<Index>(contacts.size())),
-      modes_(system, modal, contacts, bounds.gaps(), account_goal(goal, lowest_frequency(modal)), residual.jumps()) {}
+      speeds_(system, modal),
+      modes_(modal, contacts, bounds.gaps(), speeds_, account_goal(goal, lowest_frequency(modal))),
+      missed_(modal, contacts, speeds_) {}
 
 void ContactError::start(double t, const double* q, const double* w, double* memory) const {
   accounts_.start(t, memory);
-  modes_.start(t, q, w, scales_.rounding_rate(), memory + accounts_.memory_size());
+  memory += accounts_.memory_size();
+  bool is_closed = false;
+  for (Index j = 0; j < modal_.stop_count(); ++j) is_closed = is_closed || bounds_.gaps().closed_side(j, w[j]) != 0.0;
+  speeds_.start(q, is_closed ? scales_.rounding_rate() : 0.0, memory);
+  modes_.start(t, w, memory + speeds_.memory_size());
 }
 
 void ContactError::load(double t, const double* memory, const ModalState& state) {
   accounts_.load(memory);
-  modes_.begin(t, memory + accounts_.memory_size(), state);
+  memory += accounts_.memory_size();
+  speeds_.load(memory);
+  speeds_.raise(state.v);
+  missed_.begin();
+  modes_.begin(t, memory + speeds_.memory_size(), state);
 }
 
 void ContactError::save(double* memory) const {
   accounts_.save(memory);
-  modes_.save(memory + accounts_.memory_size());
+  memory += accounts_.memory_size();
+  speeds_.save(memory);
+  modes_.save(memory + speeds_.memory_size());
 }
 
 void ContactError::charge(const TriedStep& step) {
@@ -54,7 +67,7 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
     const bool is_near = bounds_.is_near(i);
     double error = is_near ? std::abs(quartic) : residual_.jump_error(flow, i, quartic, paths.motion().end[i]);
     if (is_near && iteration_.is_touched(i)) {
-      error = of_touched(flow, i, step.t_end, error, displacement);
+      error = of_touched(flow, step, i, error, displacement);
     } else if (const double depth = paths.excess()[i] + kPathError * std::abs(quartic); is_near && depth > 0.0) {
       const double impulse = iteration_.stiff(flow, i) * depth;
       const ContactScale scale = scales_.of(i, paths.reached(i), displacement);
@@ -65,7 +78,8 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
           error, of_jump(flow, i, scales_.of(i, paths.reached(i), displacement).speed) * goal_.middle * displacement);
     largest = std::max(largest, error);
   }
-  return largest;
+  return iteration_.touched().empty() ? largest
+                                      : std::max(largest, of_missed(step, displacement) * goal_.middle * displacement);
 }
 
 double ContactError::of_modes(const TriedStep& step) {
@@ -74,7 +88,7 @@ double ContactError::of_modes(const TriedStep& step) {
   return modes_.error(step.h) / modes_.allowed(step.t_end);
 }
 
-double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic,
+double ContactError::of_touched(dynamics::ContactPropagator& flow, const TriedStep& step, Index stop, double quartic,
                                 double displacement) {
   const ContactPaths& paths = iteration_.paths();
   const double h = flow.h(), stiffness = iteration_.stiffness(stop);
@@ -85,17 +99,26 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, d
   if (stays_closed) {
     const double closed = closed_error(quartic, stiffness * known.coupling[1][0], h, scale);
     changes_.emplace_back(stop, closed);
-    error = std::max(error, closed / accounts_.allowed_closed(stop, t_end) * goal_.middle * scale.displacement);
+    error = std::max(error, closed / accounts_.allowed_closed(stop, step.t_end) * goal_.middle * scale.displacement);
   } else {
     error =
         std::max(error, slope_error(goal_, h * h * stiffness * known.unresolved, paths.largest_speed(stop), h, scale));
     if (paths.changes(stop)) {
       const double change = change_error(stiffness * known.coupling[1][0], paths.largest_speed(stop), h, scale);
       changes_.emplace_back(stop, change);
-      error = std::max(error, change / accounts_.allowed(stop, t_end) * goal_.middle * scale.displacement);
+      error = std::max(error, change / accounts_.allowed(stop, step.t_end) * goal_.middle * scale.displacement);
     }
   }
   return error * (displacement / scale.displacement);
+}
+
+double ContactError::of_missed(const TriedStep& step, double displacement) {
+  constexpr double kMissed = 5.0;
+  missed_.attempt();
+  for (const Index j : iteration_.touched())
+    if (bounds_.is_near(j)) missed_.add(j, iteration_.paths().of(j), scales_.of(j, {}, displacement).speed);
+  const double allowed = kMissed * goal_.tolerance;
+  return missed_.error(step.h, step.from.v, allowed) / allowed;
 }
 
 // The phases of the modes are assumed independent. A stop at rest has the speed that the jump itself causes; only
@@ -108,7 +131,7 @@ double ContactError::of_jump(const dynamics::ContactPropagator& flow, Index stop
   hidden_ *= jump;
   double error = (shape * hidden_).matrix().norm() / speed;
   if (jump * flow.h() * shape.matrix().squaredNorm() < kMoving * speed)
-    error = std::max(error, kElsewhere * modes_.largest(hidden_));
+    error = std::max(error, kElsewhere * speeds_.relative(hidden_));
   return error / (kUnresolved * goal_.outputs);
 }
 

@@ -5,6 +5,7 @@
 
 #include "integrators/exponential/change_accounts.hpp"
 #include "integrators/exponential/contact_iteration.hpp"
+#include "integrators/exponential/missed_forces.hpp"
 #include "integrators/exponential/residual_forces.hpp"
 #include "integrators/exponential/unresolved_modes.hpp"
 
@@ -20,7 +21,7 @@ class ContactError {
                std::vector<ContactForce>& contacts, const DisplacementBounds& bounds, const ContactScales& scales,
                const ContactIteration& iteration, const ResidualErrors& residual);
 
-  Index memory_size() const { return accounts_.memory_size() + modes_.memory_size(); }
+  Index memory_size() const { return accounts_.memory_size() + speeds_.memory_size() + modes_.memory_size(); }
   /// Fills the entries of a state with the modal displacements `q` and those of the stops, `w`, at the start of a run.
   void start(double t, const double* q, const double* w, double* memory) const;
   /// Begins a macro step with the state at t.
@@ -43,16 +44,22 @@ class ContactError {
   double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed);
 
  private:
-  double of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic, double displacement);
+  double of_touched(dynamics::ContactPropagator& flow, const TriedStep& step, Index stop, double quartic,
+                    double displacement);
+  /// Indicator 10, relative to its bound.
+  double of_missed(const TriedStep& step, double displacement);
 
   const dynamics::ModalSystem& modal_;
   const StepGoal& goal_;
+  std::vector<ContactForce>& contacts_;
   const DisplacementBounds& bounds_;
   const ContactScales& scales_;
   const ContactIteration& iteration_;
   const ResidualErrors& residual_;
   ChangeAccounts accounts_;
+  ComponentSpeeds speeds_;
   UnresolvedModes modes_;
+  MissedForces missed_;
   Eigen::ArrayXd hidden_;  ///< speeds of the modes that a jump would cause and the projection hides
   std::vector<std::pair<Index, double>>
       changes_;  ///< stops that change or stay closed in the step, and their speed errors

@@ -146,9 +146,24 @@ void ContactForce::add_spring(const ContactPath& path, double begin, double end,
 }
 
 double ContactForce::tangent_at(double w) const {
-  if (residual_ > 0.0) return stiffness_;
   const double upper = w - gap_, lower = -w - gap_;
-  return contact_.law_of(stop_).tangent(!on_lower_ ? upper : !on_upper_ ? lower : std::max(upper, lower));
+  return tangent_behind(!on_lower_ ? upper : !on_upper_ ? lower : std::max(upper, lower));
+}
+
+double ContactForce::tangent_behind(double penetration) const {
+  return residual_ > 0.0 ? stiffness_ : contact_.law_of(stop_).tangent(penetration);
+}
+
+std::pair<double, double> ContactForce::missed(const ContactPath& path) {
+  const ContactStatus along = status(path);
+  if (along == ContactStatus::open && is_linear_) return {};
+  if (is_spring(path, along)) {
+    const std::array<double, 5>& c = path.coefficients();
+    return {-stiffness_ * (c[3] / 20.0 + c[4] / 10.0), -stiffness_ * c[4] / 70.0};
+  }
+  const auto [f0, f1, f2] = project(path, along).force;
+  const double start = force_at(path.value(0.0)) - (f0 - f1 + f2), end = force_at(path.value(1.0)) - (f0 + f1 + f2);
+  return {0.5 * (end - start), 0.5 * (end + start)};
 }
 
 double ContactForce::steepest(const ContactPath& path) const {

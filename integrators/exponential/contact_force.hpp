@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "butee/dynamics/elastic_stops.hpp"
@@ -43,6 +44,11 @@ class ContactForce {
   double force_at(double w) { return rest_at(w, 0.0); }
   /// The stiffness of a closed stop at a displacement, N/m; beside the transition of a regularised law.
   double tangent_at(double w) const;
+  /// The same at a penetration, m.
+  double tangent_behind(double penetration) const;
+  /// What the projection leaves out of the force along a path, as coefficients of P_3 and P_4, N: exact for a spring, so
+  /// that both ends are met otherwise.
+  std::pair<double, double> missed(const ContactPath& path);
   /// Sets the allowed error of the force, N, if it persists for the whole run and if it persists
   /// for the characteristic time of the motion. Approximations of the rest with larger errors are
   /// not used, and more panels are taken. The first bound applies to one-sided stops, whose errors

@@ -2,58 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace butee::integrators {
 
 using Eigen::ArrayXd;
 
-UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal,
-                                 std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal,
-                                 bool jumps)
+UnresolvedModes::UnresolvedModes(const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts,
+                                 const ContactGaps& gaps, ComponentSpeeds& speeds, const Goal& goal)
     : modal_(modal),
       contacts_(contacts),
       gaps_(gaps),
-      scales_(system),
+      speeds_(speeds),
       account_(goal),
       is_possible_(modal.size() > 1 && !contacts.empty()),
-      needs_speeds_(is_possible_ && jumps),
       squares_(modal.frequencies().square()),
+      raised_(speeds.largest()),
       closed_(ArrayXd::Zero(modal.stop_count())),
       was_closed_(closed_) {
-  if (is_possible_) speeds_ = now_ = raised_ = of_kind_ = Vector::Zero(modal.shapes().rows());
   for (ArrayXd* of : {&unreceived_, &rates_, &amplitudes_, &rise_, &start_.q, &start_.v, &end_.q, &end_.v})
     of->setZero(modal.size());
   for (Instant* instant : {&start_, &end_}) instant->w = gaps.gaps();
 }
 
-void UnresolvedModes::start(double t, const double* q, const double* w, double rounding_rate, double* memory) const {
+void UnresolvedModes::start(double t, const double* w, double* memory) const {
   if (!is_possible_) return;
   memory[0] = account_.rate() * t - account_.advance();
-  bool is_closed = false;
-  for (Index j = 0; j < closed_.size(); ++j) {
-    memory[1 + speeds_.size() + j] = gaps_.is_spring(j) ? 1.0 : gaps_.closed_side(j, w[j]);
-    is_closed = is_closed || gaps_.closed_side(j, w[j]) != 0.0;
-  }
-  Vector x = Vector::Zero(speeds_.size());
-  if (is_closed) modal_.to_physical(q, x);
-  Eigen::Map<Vector>(memory + 1, speeds_.size()) = rounding_rate * x.cwiseAbs();
+  for (Index j = 0; j < closed_.size(); ++j) memory[1 + j] = gaps_.is_spring(j) ? 1.0 : gaps_.closed_side(j, w[j]);
 }
 
 void UnresolvedModes::begin(double t, const double* memory, const ModalState& state) {
   if (!is_possible_) return;
   spent_ = memory[0];
-  speeds_ = Eigen::Map<const Vector>(memory + 1, speeds_.size());
-  was_closed_ = Eigen::Map<const ArrayXd>(memory + 1 + speeds_.size(), closed_.size());
+  was_closed_ = Eigen::Map<const ArrayXd>(memory + 1, closed_.size());
   any_ = false;
   for (Index j = 0; j < closed_.size(); ++j) {
     closed_[j] = gaps_.is_spring(j) ? 1.0 : gaps_.closed_side(j, state.w[j]);
     any_ = any_ || (was_closed_[j] != 0.0 && closed_[j] != 0.0);
   }
-  if (any_ || needs_speeds_) raise_speeds(state);
   if (!any_) return;
   start_.set(t, state);
   find_rates(start_);
-  speeds_ = raised_;
+  speeds_.raise_to(raised_);
   is_of_start_ = true;
   energy_ = amplitudes_.square().sum();
 }
@@ -70,26 +60,10 @@ void UnresolvedModes::look(double t, const ModalState& end) {
   }
 }
 
-void UnresolvedModes::raise_speeds(const ModalState& state) {
-  modal_.to_physical(state.v.data(), now_);
-  scales_.raise(now_, speeds_);
-}
-
-double UnresolvedModes::largest(const ArrayXd& modal_speeds) {
-  constexpr double kLeastOfKind = 0.02;
-  scales_.largest_of_kind(speeds_, of_kind_);
-  double largest = 0.0;
-  for (Index d = 0; d < speeds_.size(); ++d)
-    if (const double scale = std::max(speeds_[d], kLeastOfKind * of_kind_[d]); scale > 0.0)
-      largest = std::max(largest, (modal_.shape_rows().col(d).array() * modal_speeds).square().sum() / (scale * scale));
-  return std::sqrt(largest);
-}
-
 void UnresolvedModes::save(double* memory) const {
   if (!is_possible_) return;
   memory[0] = spent_;
-  Eigen::Map<Vector>(memory + 1, speeds_.size()) = speeds_;
-  Eigen::Map<ArrayXd>(memory + 1 + speeds_.size(), closed_.size()) = closed_;
+  Eigen::Map<ArrayXd>(memory + 1, closed_.size()) = closed_;
 }
 
 double UnresolvedModes::error(double h) {
@@ -101,7 +75,7 @@ double UnresolvedModes::error(double h) {
 }
 
 void UnresolvedModes::find_rates(const Instant& at) {
-  constexpr double kExpected = 0.1;
+  constexpr double kExpected = 0.1, kRoundingOfModes = 64.0 * std::numeric_limits<double>::epsilon();
   const ArrayXd& frequencies = modal_.frequencies();
   amplitudes_ = -squares_ * at.q - 2.0 * modal_.decay() * at.v;
   modal_.add_load(at.t, amplitudes_);
@@ -109,15 +83,17 @@ void UnresolvedModes::find_rates(const Instant& at) {
     if (closed_[j] != 0.0)
       amplitudes_ += modal_.stop_shapes().of(j).array() * contacts_[static_cast<std::size_t>(j)].force_at(at.w[j]);
   amplitudes_ = (frequencies > 0.0).select((at.v.square() + (amplitudes_ / frequencies).square()).sqrt(), 0.0);
+  // In a static position fast modes vibrate by the rounding of the displacements.
+  amplitudes_ = (amplitudes_ > kRoundingOfModes * at.q.matrix().norm() * frequencies).select(amplitudes_, 0.0);
   rise_.setZero(modal_.size());
   for (Index j = 0; j < modal_.stop_count(); ++j)
     if (closed_[j] != 0.0 && was_closed_[j] != 0.0)
       rise_ += contacts_[static_cast<std::size_t>(j)].tangent_at(at.w[j]) * modal_.stop_shapes().of(j).array().square();
   // The largest velocity of a component per unit of modal speed, relative to its scale.
   rates_.setZero(modal_.size());
-  for (Index d = 0; d < speeds_.size(); ++d) {
+  for (Index d = 0; d < raised_.size(); ++d) {
     const auto shape = modal_.shape_rows().col(d).array();
-    raised_[d] = std::max(speeds_[d], kExpected * (shape * amplitudes_).matrix().norm());
+    raised_[d] = std::max(speeds_.largest()[d], kExpected * (shape * amplitudes_).matrix().norm());
     if (raised_[d] > 0.0) rates_ = rates_.max(shape.abs() / raised_[d]);
   }
   rates_ *= ((squares_ + rise_).sqrt() - frequencies) * amplitudes_;

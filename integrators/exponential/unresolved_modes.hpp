@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "integrators/error_account.hpp"
+#include "integrators/exponential/component_speeds.hpp"
 #include "integrators/exponential/contact_force.hpp"
 #include "integrators/exponential/contact_gaps.hpp"
 
@@ -23,26 +23,21 @@ inline double unreceived_part(double square) {
 /// leaves out a part of this rise, and the phase that is missed grows as long as the stop stays closed. The error of
 /// the velocity of a component is the missing phase times the amplitude of the mode there. The sum of these errors is
 /// limited by an ErrorAccount. Only stops count that were closed at the start of this macro step and of the last one:
-/// impacts are shorter. The account, the largest velocities so far and the stops that were closed are a part of the
-/// state. Checked in tests/models/exponential_long_runs_test.cpp.
+/// impacts are shorter. The account and the stops that were closed are a part of the state. Checked in
+/// tests/models/exponential_long_runs_test.cpp.
 class UnresolvedModes {
  public:
-  /// All must outlive it. `jumps`: largest() is needed.
-  UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts,
-                  const ContactGaps& gaps, const Goal& goal, bool jumps);
+  /// All must outlive it.
+  UnresolvedModes(const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts, const ContactGaps& gaps,
+                  ComponentSpeeds& speeds, const Goal& goal);
 
-  Index memory_size() const { return is_possible_ ? 1 + speeds_.size() + closed_.size() : 0; }
-  /// Fills the entries of a state with the modal displacements `q` and those of the stops, `w`, at the start of a run.
-  /// Stops that are closed there count as closed before. If there are any, velocities below `rounding_rate`, 1/s, times
-  /// the displacements are rounding.
-  void start(double t, const double* q, const double* w, double rounding_rate, double* memory) const;
+  Index memory_size() const { return is_possible_ ? 1 + closed_.size() : 0; }
+  /// Fills the entries of a state with the displacements `w` of the stops at the start of a run. Stops that are closed
+  /// there count as closed before.
+  void start(double t, const double* w, double* memory) const;
   /// Begins a macro step with the state at t.
   void begin(double t, const double* memory, const ModalState& state);
   void save(double* memory) const;
-
-  /// The largest velocity of a component by the given speeds of the modes, in independent phases, relative to its
-  /// largest velocity so far, or to kLeastOfKind of the largest of its kind; 0 before anything moves.
-  double largest(const Eigen::ArrayXd& modal_speeds);
 
   /// A stop stays closed.
   bool any() const { return any_; }
@@ -77,22 +72,18 @@ class UnresolvedModes {
     }
   };
 
-  void raise_speeds(const ModalState& state);
   void find_rates(const Instant& at);
 
   const dynamics::ModalSystem& modal_;
   std::vector<ContactForce>& contacts_;
   const ContactGaps& gaps_;
-  ComponentScales scales_;
+  ComponentSpeeds& speeds_;
   ErrorAccount account_;
   bool is_possible_;        ///< the modes turn at different rates
-  bool needs_speeds_;       ///< in every macro step
   Eigen::ArrayXd squares_;  ///< omega^2
   bool any_ = false;
   double spent_ = 0.0;
-  Vector speeds_, now_;        ///< largest velocity of each DOF so far, the present one
-  Vector raised_;              ///< speeds_, at least a part of those that the amplitudes will cause
-  Vector of_kind_;             ///< the largest of speeds_ for the kind of each DOF
+  Vector raised_;              ///< the largest speeds, at least a part of those that the amplitudes will cause
   Eigen::ArrayXd closed_;      ///< the side on which each stop was closed at the start of the macro step; 0: open
   Eigen::ArrayXd was_closed_;  ///< the same for the macro step before
   Instant start_, end_;        ///< the instants at which amplitudes were found

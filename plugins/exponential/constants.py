@@ -388,6 +388,18 @@ def unreceived():
     compare("unreceived_part: allowed and largest error", 0.1, worst, ">=", 2.0)
 
 
+def unresolved_rest():
+    """What a mode receives of a force P_3 or P_4, which the projection leaves out."""
+    print("\nA force P_3 or P_4 in a step: what it gives to a mode that turns by x")
+    cubic, most = constant("kOfCubic"), constant("kMostOfRest")
+    s, w = gauss(0.0, 1.0)
+    for name, force in (("P_3", 20 * s ** 3 - 30 * s ** 2 + 12 * s - 1),
+                        ("P_4", 70 * s ** 4 - 140 * s ** 3 + 90 * s ** 2 - 20 * s + 1)):
+        received = lambda x: abs(np.sum(w * np.exp(1j * x * s) * force))
+        worst = max(received(x) / min(cubic * x ** 3, most, 2 / x) for x in np.linspace(0.1, 200.0, 4000))
+        compare(f"unresolved_rest: |int {name} e^(i x s)| over it", 1.0, worst, ">=", 3.0)
+
+
 def residual_force():
     print("\nResidual force of the law arctan, R(y)/R = y atan(1/y), y = |g|/bend")
     departs = lambda y: 1 - y * np.arctan(1 / y)
@@ -452,6 +464,7 @@ sweeps()
 local_orders()
 changes_of_contact()
 unreceived()
+unresolved_rest()
 residual_force()
 series()
 print(f"\n{failures} values differ" if failures else "\nno value differs but for the open points of THEORY.md")

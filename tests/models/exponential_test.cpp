@@ -98,11 +98,11 @@ INSTANTIATE_TEST_SUITE_P(LinearLaw, ExponentialMethod,
                          [](const auto& one) { return one.param.scene; });
 
 TEST(Exponential, TakesFewSteps) {
-  // It takes 108 steps at 1e-3 for 56 contact changes; Newmark needs thousands. The bound detects a loss of
-  // this efficiency.
+  // It takes 220 steps at 1e-3 for 56 contact changes, half of them for the velocities of rotations; Newmark needs
+  // thousands. The bound detects a loss of this efficiency.
   SceneRun scene(with_linear_law("beam1"), {"integrator.type=exponential", "integrator.tolerance=1e-3"});
   ASSERT_TRUE(scene.run().completed);
-  EXPECT_LT(scene.simulation().report().steps, 200);
+  EXPECT_LT(scene.simulation().report().steps, 300);
 }
 
 /// An observer that keeps the end states of a macro step can interpolate in it after the method has moved on.

@@ -45,11 +45,10 @@ rodas4, 1e-11 for dopri5 and 1e-12 for extrapolation8. Smaller tolerances are re
 of steps or the accumulated errors of many impacts.
 
 Exceptions: for structures of more than 600 DOFs the tolerance limits the error of each step, for any number of steps,
-in the norm of the mass matrix over the whole structure. exponential (and auto with it) may exceed the bound for
-velocities that a first contact or a load sets in motion, in the first instants, while they are below a tenth of their
-largest value; take rodas4 where these matter. exact and piecewise have no truncation error. newmark_adaptive,
-newmark_modified_adaptive, rk4_fixed_factors, rk4_error_scaled and sundials control the error in the way of their
-sources or libraries. `butee run --trust` bounds the error of a run, whatever the method.
+in the norm of the mass matrix over the whole structure. In a static position velocities below 1e-10 of the highest
+frequency times the displacements are rounding and not controlled. exact and piecewise have no truncation error.
+newmark_adaptive, newmark_modified_adaptive, rk4_fixed_factors, rk4_error_scaled and sundials control the error in the
+way of their sources or libraries. `butee run --trust` bounds the error of a run, whatever the method.
 )";
 }
 
