@@ -20,6 +20,9 @@ constexpr double kWeakest = 1e-6;
 constexpr double kSufficient = 0.5;
 /// Rounding of the residual, as a part of the sum of the sizes of its terms.
 constexpr double kRounding = 1e-14;
+/// The largest rounding of the residual, as a part of the forces, of a position: structures that nothing holds come to
+/// rest where rounding balances the forces, very far away.
+constexpr double kAcceptable = 1e-2;
 
 /// K + S^T diag(k) S
 SparseMatrix with_stops(const Dynamics& dynamics, const ElasticStops& contact, const Vector& stiffness) {
@@ -74,7 +77,8 @@ class Equilibrium {
     dynamics_.add_contact_force(x, r);
     dynamics_.add_obstacle_force(t_, x, rest_, r);
     dynamics_.elastic_force(x, elastic_);
-    const double scale = load_.norm() + r.norm() + elastic_.norm();
+    forces_ = load_.norm() + r.norm();
+    const double scale = forces_ + elastic_.norm();
     r += load_ - elastic_;
     return scale > 0.0 ? r.norm() / scale : 0.0;
   }
@@ -114,22 +118,31 @@ class Equilibrium {
     return support;
   }
 
-  /// The sums of the sizes of the terms of the residual.
-  Vector sizes(const SparseMatrix& tangent, const Vector& x) const {
-    return tangent.cwiseAbs() * x.cwiseAbs() + load_.cwiseAbs();
+  /// The rounding of the residual, N.
+  double rounding(const SparseMatrix& tangent, const Vector& x) const {
+    return kRounding * (tangent.cwiseAbs() * x.cwiseAbs() + load_.cwiseAbs()).norm();
   }
+  /// |F| + |F_c| of the last residual, N.
+  double forces() const { return forces_; }
 
  private:
   Dynamics& dynamics_;
   Vector load_, elastic_;
   Vector rest_;  ///< velocity of the DOFs at rest, m/s
-  double t_;
+  double t_, forces_ = 0.0;
   Vector w_;
 };
 
 InputError not_found(double residual) {
   return InputError("gravity.static: the static position was not found: Newton's iteration stopped at a residual of " +
                     to_short_text(residual) + " of the forces; give a start near it by [initial] displacement");
+}
+
+InputError not_held(const SparseMatrix& tangent, const model::System& system) {
+  return InputError("gravity.static: the scene has no static position: nothing holds " +
+                    describe_softest_motion(tangent, system.dofs) +
+                    ", or a preload buckles it; add a support or a spring there, give a start near it by [initial] "
+                    "displacement, or start without static = true");
 }
 
 }  // namespace
@@ -147,8 +160,10 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
     bool solved = solver.factorize(tangent);
     if (solved) solver.solve(step);
     // Bodies that nothing holds yet, or that buckle: a weak support gives a long step along their loads, and the search
-    // along it ends where a contact holds them.
-    const bool falls = !solved || !step.allFinite();
+    // along it ends where a contact holds them. If the stiffness along the step is rounding, nothing holds it either.
+    const bool falls =
+        !solved || !step.allFinite() ||
+        std::abs(step.dot(tangent * step)) <= kRounding * step.cwiseAbs().dot(tangent.cwiseAbs() * step.cwiseAbs());
     solved = !falls;
     for (double part = kWeakest; !solved && part <= 1.0; part *= 10.0) {
       const SparseMatrix held = tangent + equilibrium.support(part);
@@ -157,13 +172,7 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
       if (solved) solver.solve(step);
       solved = solved && step.allFinite();
     }
-    const auto not_held = [&] {
-      return InputError("gravity.static: the scene has no static position: nothing holds " +
-                        describe_softest_motion(tangent, system.dofs) +
-                        ", or a preload buckles it; add a support or a spring there, give a start near it by [initial] "
-                        "displacement, or start without static = true");
-    };
-    if (!solved) throw not_held();
+    if (!solved) throw not_held(tangent, system);
     // Along the step the forces do work r.step; where it vanishes, a convex energy is at its lowest.
     const double work = r.dot(step);
     double low = 0.0, high = 1.0, next = size;
@@ -173,12 +182,13 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
       next = equilibrium.residual(moved, next_r);
       return next_r.dot(step);
     };
-    if (falls) {
+    // Where nothing loads what is not held, the step is as good as Newton's.
+    if (falls && work_at(high) * work > 0.0 && !(next < kSufficient * size)) {
       for (int k = 0; k < kMostDoublings && work_at(high) * work > 0.0; ++k) {
         low = high;
         high *= 2.0;
       }
-      if (work_at(high) * work > 0.0) throw not_held();
+      if (work_at(high) * work > 0.0) throw not_held(tangent, system);
     }
     bool is_better = false;
     double part = high;
@@ -187,15 +197,17 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
       is_better = next < size || std::abs(rest) <= kSufficient * std::abs(work);
       (rest * work > 0.0 ? low : high) = part;
     }
-    const bool is_rounding = !(next < size) && r.norm() <= kRounding * equilibrium.sizes(tangent, x).norm();
-    if (is_rounding) break;
-    if (!is_better) throw falls ? not_held() : not_found(size);
+    if (!(next < size) && r.norm() <= equilibrium.rounding(tangent, x)) break;
+    if (!is_better) throw falls ? not_held(tangent, system) : not_found(size);
     x = moved;
     r.swap(next_r);
     size = next;
   }
-  if (size > kConverged && r.norm() > kRounding * equilibrium.sizes(equilibrium.tangent(x), x).norm())
-    throw not_found(size);
+  const SparseMatrix tangent = equilibrium.tangent(x);
+  const double rounding = equilibrium.rounding(tangent, x);
+  size = equilibrium.residual(x, r);
+  if (size > 0.0 && rounding > kAcceptable * equilibrium.forces()) throw not_held(tangent, system);
+  if (size > kConverged && r.norm() > rounding) throw not_found(size);
   return x;
 }
 
