@@ -21,6 +21,9 @@ bool stops_rubbing(const model::ObstacleGroup& group) {
 /// The uncertainty of a sum of few terms relative to the sum of their magnitudes.
 constexpr double kRoundingOfTerms = 8.0 * std::numeric_limits<double>::epsilon();
 
+/// The penetration at which the growth of a force is found at its onset, m.
+constexpr double kAtOnset = 1e-100;
+
 /// A contact by Hunt and Crossley is released below this factor of its elastic force, and pressed again above twice
 /// that factor.
 constexpr double kNoFactor = 1e-9;
@@ -121,7 +124,9 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
     if (limit > 0.0) {
       if (friction.stick_damping * std::abs(now.slip) <= limit) phase.slip = SlipPhase::stick;
     } else if ((has_closed || phase.touches()) && now.rate > 0.0) {
-      const double growth = friction.static_coefficient * pressing.by_penetration * now.rate;
+      // Dissipation by a power of the penetration below 1 makes the limit grow infinitely fast.
+      const double growth =
+          friction.static_coefficient * now.rate / kAtOnset * normal(at(i), normal_phase, kAtOnset, now.rate).force;
       if (friction.stick_damping == 0.0 && friction.stick_stiffness * std::abs(now.slip) <= growth)
         phase.slip = SlipPhase::stick;
     }

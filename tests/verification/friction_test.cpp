@@ -56,6 +56,35 @@ class Sampled final : public time::Observer {
   double t_;
 };
 
+/// Where the dissipation of a law grows as the root of the penetration, or as its fourth root, the limit of friction
+/// grows infinitely fast at the onset: the contact sticks from its first instant, whatever rounding decides there, and
+/// the body vibrates along the plane on the stick spring alone.
+TEST(StickSpring, HoldsFromTheOnsetOfADissipativeContact) {
+  constexpr double kSpring = 3000.0, kStick = 2e5, kGap = 1e-3, kEnd = 3e-3;
+  for (const std::string law :
+       {"law = \"viscoelastic\"\nstiffness = 1.3e7\nrelaxation = 1.1e-4\n",
+        "law = \"hertz\"\nstiffness = 2.9e7\ndamping = { type = \"jankowski\", restitution = 0.6, "
+        "mass = 1.0 }\n"})
+    for (const char* method : {"dopri5", "exponential", "extrapolation8"})
+      for (const double along : {0.21, 0.23, 0.25, 0.27, 0.29}) {
+        constexpr double kAcross = 0.8;
+        SceneRun run(
+            "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\n"
+            "node = \"m\"\ndof = \"uz\"\nstiffness = " +
+                std::to_string(kSpring) +
+                "\n[[contact]]\ntype = \"plane\"\nnodes = \"m\"\nnormal = [0.0, 1.0]\ngap = " + std::to_string(kGap) +
+                "\n" + law + "friction = { coefficient = 0.3, static_coefficient = 1.5, stick_stiffness = " +
+                std::to_string(kStick) + " }\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"uy\", value = " +
+                std::to_string(along) + " }, { nodes = \"m\", dof = \"uz\", value = " + std::to_string(kAcross) +
+                " }]\n[integrator]\nend_time = " + std::to_string(kEnd) + "\n",
+            {std::string("integrator.type=") + method, "integrator.tolerance=1e-7"});
+        ASSERT_TRUE(run.run().completed);
+        const double rate = std::sqrt(kSpring), onset = std::asin(kGap * rate / kAcross) / rate,
+                     expected = along * std::cos(std::sqrt(kStick) * (kEnd - onset));
+        EXPECT_NEAR(run.simulation().state().v[run.dof("m", DofKind::uy)], expected, 1e-5) << law << method << along;
+      }
+}
+
 class FrictionMethods : public testing::TestWithParam<const char*> {};
 
 constexpr const char* kSliding = "[initial]\ndisplacement = [{ nodes = \"block\", value = 0.85e-3 }]\n";
