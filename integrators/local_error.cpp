@@ -257,8 +257,9 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     to.memory[kOld] = kSmallest;
     to.memory[kAccount] = balance;
     report.error = kSmallest;
-    report.proposal = std::min(kStableAtRest * longest_stable(), steps_ == Steps::any ? any_step(h, 0.0, 1.0, orders_.method)
-                                                                       : grid_step(h, 0.0, orders_.estimate));
+    report.proposal =
+        std::min(kStableAtRest * longest_stable(),
+                 steps_ == Steps::any ? any_step(h, 0.0, 1.0, orders_.method) : grid_step(h, 0.0, orders_.estimate));
     return;
   }
   if (!as_a_whole_ && epsilon > smooth && rate_ > 0.0) {
@@ -285,8 +286,12 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   // Nor does the account pay for rounding.
   if (rounding_ && (r > 1.0 || (!change.has_changed && epsilon > smooth)))
     allow_rounding(change.has_changed ? ErrorAccount::kSpend * balance / orders_.contact_change : smooth);
-  // Rounding does not fall with the step, and must not keep it short either.
-  if (rounding_ && !change.has_changed && r <= 1.0 && r > kQuiet && epsilon < kNearRounding)
+  // Rounding does not fall with the step, and must not keep it short either: rounding of velocities falls with h, the
+  // bound nearly so, and accepted steps would shrink by orders of magnitude.
+  const auto shrinks = [&] {
+    return steps_ == Steps::any && h * rate_ < kTiny && any_step(h, r, from.memory[kOld], power_ * orders_.method) < h;
+  };
+  if (rounding_ && !change.has_changed && r <= 1.0 && r > kQuiet && (epsilon < kNearRounding || shrinks()))
     allow_rounding(kQuiet * smooth);
   to.memory[kOld] = std::max(epsilon / smooth, kSmallest);
   to.memory[kAccount] = balance - charge;

@@ -234,6 +234,30 @@ TEST(AtRest, ABeamInItsStaticPositionUnderALoadThatGrows) {
   }
 }
 
+/// A small late load on a beam with strong stiffness-proportional damping: rounding of the balanced forces falls with h
+/// as the error bound nearly does, and accepted steps shrank to 1e-8 s (579 000 steps and more).
+TEST(AtRest, ALateLoadOnADampedBeamDoesNotLeadToTinySteps) {
+  const std::string scene =
+      "schema = 1\n[material.s]\nyoung_modulus = 2.0e11\ndensity = 7800.0\n[section.s]\nshape = \"circle\"\nradius = "
+      "0.06\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"s\"\nlength = 6.5\nelements = "
+      "30\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n[damping]\nstiffness_proportional = 1e-4\n"
+      "[[load]]\ntype = \"table\"\nnode = \"b:middle\"\ntimes = [0.005, 0.006]\nvalues = [0.0, 3.0]\n[gravity]\n"
+      "acceleration = [0.0, -9.81, 0.0]\nstatic = true\n[integrator]\nend_time = 0.01\n";
+  SceneRun exact(scene, {"integrator.type=exponential", "integrator.tolerance=1e-8"});
+  ASSERT_TRUE(exact.run().completed);
+  const Index middle = exact.dof("b:middle");
+  const double v = exact.simulation().state().v[middle];
+  ASSERT_GT(v, 1e-6);
+  for (const char* method : {"dopri5", "extrapolation8"})
+    for (const char* tolerance : {"1e-4", "1e-6"}) {
+      SceneRun run(scene, {std::string("integrator.type=") + method, std::string("integrator.tolerance=") + tolerance});
+      const time::RunReport& report = run.run();
+      ASSERT_TRUE(report.completed) << method << ": " << report.message;
+      EXPECT_NEAR(run.simulation().state().v[middle], v, 10.0 * std::stod(tolerance) * v) << method << " " << tolerance;
+      EXPECT_LT(report.steps, 20000) << method << " " << tolerance;
+    }
+}
+
 /// A shaft in its static position in rings begins to rub: the rounding of the forces in balance is larger than the
 /// errors that the still small velocities allow, and neither keeps the steps short nor uses up the error account. 769
 /// steps (7019 when it did).
