@@ -162,14 +162,24 @@ double StepPath::departure(std::size_t order, const Point& from, const Point& to
 }
 
 double StepPath::rounding(std::size_t order, const Point& from, const Point& to) const {
-  if (order == 0) return 0.0;
+  if (order == 0) return rounding_[0];
   double displacement = 0.0, speed = 0.0;
   for (const Index dof : dofs_) {
     if (dof < 0) continue;
     displacement += std::max(std::abs(step_.from.x[dof]), std::abs(step_.to.x[dof]));
     speed += std::max(std::abs(step_.from.v[dof]), std::abs(step_.to.v[dof]));
   }
-  return time::derivative_rounding(static_cast<int>(order), displacement, speed, to.t, to.t - from.t);
+  return std::max(rounding_[order],
+                  time::derivative_rounding(static_cast<int>(order), displacement, speed, to.t, to.t - from.t));
+}
+
+std::array<double, 3> StepPath::rounding_of_sums(const time::AcceptedStep& step) {
+  constexpr double kOfSum = 16.0 * std::numeric_limits<double>::epsilon();
+  const auto largest = [](const Vector& a, const Vector& b) {
+    return a.size() > 0 ? std::max(a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>()) : 0.0;
+  };
+  return {kOfSum * largest(step.from.x, step.to.x), kOfSum * largest(step.from.v, step.to.v),
+          kOfSum * largest(step.from.a, step.to.a)};
 }
 
 double StepPath::good_of(std::size_t order, const Range& range, double bound) const {

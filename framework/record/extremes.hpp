@@ -58,10 +58,13 @@ class BUTEE_EXPORT StepPath {
   static constexpr double kMargin = 0.005;
 
   /// Index b < 0: DOF a alone, and 0 if a is negative too. `kind`: of the step's integrator.
-  /// `borders`: displacements at which a stop closes. `step` and `borders` must outlive this object.
+  /// `borders`: displacements at which a stop closes. `rounding`: of x, v and a, where a DOF is a sum over modes that
+  /// move others far more. `step` and `borders` must outlive this object.
   StepPath(const time::AcceptedStep& step, time::Interpolation kind, Index a, Index b,
-           std::span<const double> borders = {})
-      : step_(step), kind_(kind), dofs_{a, b}, borders_(borders) {}
+           std::span<const double> borders = {}, const std::array<double, 3>& rounding = {})
+      : step_(step), kind_(kind), dofs_{a, b}, borders_(borders), rounding_(rounding) {}
+  /// Rounding of sums over modes in a step.
+  static std::array<double, 3> rounding_of_sums(const time::AcceptedStep& step);
 
   static Point point(const time::State& state, Index a, Index b) {
     Point point{state.t, {0.0, 0.0, 0.0}};
@@ -117,8 +120,8 @@ class BUTEE_EXPORT StepPath {
   std::pair<double, double> enclose(std::size_t order, const Point& from, const Point& to, double departs) const;
   void search(std::size_t order, const Point& from, const Point& to, Range& range) const;
   void halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const;
-  /// Bound on the rounding of derivative `order` between two instants: that of displacements, and of
-  /// the times over the velocity, divided by the distance of the instants.
+  /// Bound on the rounding of derivative `order` between two instants: that of sums over modes, and that of
+  /// displacements, and of the times over the velocity, divided by the distance of the instants.
   double rounding(std::size_t order, const Point& from, const Point& to) const;
   /// Bound on the difference of derivative `order` between the dense output and the polynomial.
   double departure(std::size_t order, const Point& from, const Point& to) const;
@@ -127,6 +130,7 @@ class BUTEE_EXPORT StepPath {
   time::Interpolation kind_;
   std::array<Index, 2> dofs_;
   std::span<const double> borders_;
+  std::array<double, 3> rounding_;
 };
 
 }  // namespace butee::record

@@ -23,7 +23,7 @@ class BUTEE_EXPORT Tracks {
     return StepPath::point(state, pairs_[track].first, pairs_[track].second);
   }
   StepPath path(const time::AcceptedStep& step, std::size_t track) const {
-    return {step, kind_, pairs_[track].first, pairs_[track].second, borders_[track]};
+    return {step, kind_, pairs_[track].first, pairs_[track].second, borders_[track], rounding_};
   }
 
   /// Calls `look()` for every piece of the step between two neighbouring breakpoints; from() and
@@ -31,6 +31,7 @@ class BUTEE_EXPORT Tracks {
   template <class Look>
   void visit(const time::AcceptedStep& step, Look look) {
     kind_ = step.motion.interpolation();
+    if (kind_ == time::Interpolation::other) rounding_ = StepPath::rounding_of_sums(step);
     for (std::size_t i = 0; i < size(); ++i) from_[i] = at(step.from, i);
     const std::span<const double> breakpoints = step.motion.breakpoints(detail_);
     if (!breakpoints.empty()) sample(step, breakpoints);
@@ -55,6 +56,7 @@ class BUTEE_EXPORT Tracks {
   std::vector<Point> from_, to_;
   time::Detail detail_ = time::Detail::displacements;
   time::Interpolation kind_ = time::Interpolation::cubic;  ///< of the last visited step
+  std::array<double, 3> rounding_{};                       ///< of x, v and a there
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;  ///< of dofs_ at the breakpoints
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "integrators/exponential/load_parabola.hpp"
 #include "integrators/quintic.hpp"
@@ -13,35 +14,34 @@ using Eigen::ArrayXd;
 
 namespace {
 
-/// Nearer to critical damping, with (kappa/omega)^2 below this, both rates are about the same.
+using OfModes = std::array<ArrayXd, 7>;
+
+/// Nearer to critical damping, with |delta^2 - omega^2| below this part of omega^2, both rates are about the same.
 constexpr double kCritical = 1e-2;
 
-/// A part e^x of less than this x is below the smallest number.
-constexpr double kForgotten = -750.0;
+// The departures from a quintic over h of motion whose derivatives are at most of[0], of[1], of[2] and of[6]. The sums
+// of the Hermite functions and of their derivatives also bound the difference from a quintic.
 
-/// The largest departures from a quintic over h of motion whose derivatives are at most of[0], of[1], of[2] and of6.
-/// The sums of the Hermite functions and of their derivatives also bound the difference from a quintic.
-struct Departure {
-  double x, v, a;
+ArrayXd departure_of_x(double h, const OfModes& of) {
+  return (quintic_error(h, 1.0).x * of[6]).min(2.0 * of[0] + 0.4 * h * of[1] + 0.035 * h * h * of[2]);
+}
 
-  Departure(double h, double of0, double of1, double of2, double of6) {
-    const QuinticError error = quintic_error(h, of6);
-    x = std::min(error.x, 2.0 * of0 + 0.4 * h * of1 + 0.035 * h * h * of2);
-    v = std::min(error.v, 5.0 * of1 + 0.3 * h * of2);
-    a = std::min(error.a, 18.0 / h * of1 + 3.0 * of2);
-  }
-};
+ArrayXd departure_of_v(double h, const OfModes& of) {
+  return (quintic_error(h, 1.0).v * of[6]).min(5.0 * of[1] + 0.3 * h * of[2]);
+}
+
+ArrayXd departure_of_a(double h, const OfModes& of) {
+  return (quintic_error(h, 1.0).a * of[6]).min(18.0 / h * of[1] + 3.0 * of[2]);
+}
 
 }  // namespace
 
 DerivativeBounds::DerivativeBounds(const dynamics::ModalSystem& modal, const Breakpoints& breakpoints)
     : modal_(modal), breakpoints_(breakpoints) {
-  for (Index i = 0; i < modal.size(); ++i) {
-    const double omega = modal.frequencies()[i], delta = modal.decay()[i], square = delta * delta - omega * omega;
-    if (omega == 0.0 || square < kCritical * omega * omega) continue;
-    const double fast = -(delta + std::sqrt(square));
-    overdamped_.push_back({i, omega * omega / fast, fast});
-  }
+  for (OfModes* bounds : {&by_energy_, &forced_, &of_, &of_fast_})
+    for (ArrayXd& bound : *bounds) bound.setZero(modal.size());
+  for (Decaying* part : {&free_, &fast_})
+    for (ArrayXd* of : {&part->amplitude, &part->rate, &part->decay}) of->setZero(modal.size());
 }
 
 // Without contact only its load adds energy to a mode: sqrt(v^2 + omega^2 q^2) grows by at most the
@@ -70,59 +70,28 @@ void DerivativeBounds::find(std::size_t breakpoint) {
   const ArrayXd decay = 2.0 * modal_.decay();
   const Eigen::Map<const ArrayXd> q(breakpoints_.q(breakpoint), modal_.size()),
       v(breakpoints_.v(breakpoint), modal_.size());
-  of_[1] = (v.square() + squares * q.square()).sqrt() + h * load[0];
-  of_[0] = (omega * h > 1.0).select(of_[1] / omega, q.abs() + h * of_[1]);
-  of_[2] = load[0] + omega * (omega * of_[0]).min(of_[1]) + decay * of_[1];
-  for (std::size_t k = 3; k < of_.size(); ++k) of_[k] = load[k - 2] + squares * of_[k - 2] + decay * of_[k - 1];
-  if (modal_.other_loads().empty()) find_beside_steady(t, q, v);
-  for (Overdamped& mode : overdamped_) find(mode, t, h, q[mode.mode], v[mode.mode]);
+  OfModes& of = by_energy_;
+  of[1] = (v.square() + squares * q.square()).sqrt() + h * load[0];
+  of[0] = (omega * h > 1.0).select(of[1] / omega, q.abs() + h * of[1]);
+  of[2] = load[0] + omega * (omega * of[0]).min(of[1]) + decay * of[1];
+  for (std::size_t k = 3; k < of.size(); ++k) of[k] = load[k - 2] + squares * of[k - 2] + decay * of[k - 1];
+  for (Index i = 0; i < modal_.size(); ++i) find(i, t, h, q[i], v[i]);
 }
 
-// Modes far faster than their loads follow these: their motion is the steady response and a free vibration, whose
-// sqrt(v^2 + omega^2 q^2) does not grow.
-void DerivativeBounds::find_beside_steady(double t, const ArrayXd& q, const ArrayXd& v) {
-  const ArrayXd &omega = modal_.frequencies(), squares = omega.square(), decay = 2.0 * modal_.decay();
-  ArrayXd free_q = q, free_v = v;
-  std::array<ArrayXd, 7> steady;
-  for (ArrayXd& bound : steady) bound.setZero(modal_.size());
-  for (const dynamics::ModalHarmonic& load : modal_.harmonics()) {
-    const double turn = load.angular_frequency, cosine = std::cos(turn * t), sine = std::sin(turn * t);
-    const ArrayXd real = squares - turn * turn, imaginary = decay * turn, size = real.square() + imaginary.square(),
-                  a = (load.cosine * real - load.sine * imaginary) / size,
-                  b = (-load.sine * real - load.cosine * imaginary) / size;
-    free_q -= a * cosine - b * sine;
-    free_v += turn * (a * sine + b * cosine);
-    ArrayXd amplitude = (a.square() + b.square()).sqrt();
-    for (ArrayXd& bound : steady) {
-      bound += amplitude;
-      amplitude *= turn;
-    }
-  }
-  const ArrayXd speed = (free_v.square() + squares * free_q.square()).sqrt();
-  std::array<ArrayXd, 7> all = {speed / omega, speed, omega * speed + decay * speed};
-  for (std::size_t k = 3; k < all.size(); ++k) all[k] = squares * all[k - 2] + decay * all[k - 1];
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    all[k] += steady[k];
-    of_[k] = all[k].isFinite().select(of_[k].min(all[k]), of_[k]);
-  }
-}
-
-// The equation bounds the derivatives of an overdamped mode by powers of its fast rate, although hardly anything moves
-// at that rate. Its motion is the steady response to harmonic loads, the polynomial response to parabolas, and
-// exponentials of both rates.
-void DerivativeBounds::find(Overdamped& mode, double t, double h, double q, double v) {
-  const Index i = mode.mode;
-  const double square = modal_.frequencies()[i] * modal_.frequencies()[i], damping = 2.0 * modal_.decay()[i];
-  std::array<double, 7> of{};
+// Loads do little work on a mode that is far faster, and a damped mode forgets its start: its motion is the steady
+// response to harmonic loads, the polynomial response to parabolas, and free motion.
+void DerivativeBounds::find(Index i, double t, double h, double q, double v) {
+  const double omega = modal_.frequencies()[i], delta = modal_.decay()[i], square = omega * omega;
+  std::array<double, 7> forced{};
   for (const dynamics::ModalHarmonic& load : modal_.harmonics()) {
     const double turn = load.angular_frequency;
     const std::complex<double> steady = std::complex<double>(load.cosine[i], -load.sine[i]) /
-                                        std::complex<double>(square - turn * turn, damping * turn),
+                                        std::complex<double>(square - turn * turn, 2.0 * delta * turn),
                                now = steady * std::polar(1.0, turn * t);
     q -= now.real();
     v += turn * now.imag();
     double size = std::abs(steady);
-    for (double& bound : of) {
+    for (double& bound : forced) {
       bound += size;
       size *= turn;
     }
@@ -131,44 +100,74 @@ void DerivativeBounds::find(Overdamped& mode, double t, double h, double q, doub
     const LoadParabola f(*other.in_time, t, t + h);
     const double shape = other.shape[i], bend = 2.0 * f.bend() / (h * h) * shape,
                  slope = (4.0 * f.middle - 3.0 * f.begin - f.end) / h * shape;
-    const double led2 = bend / square, led1 = (slope - 2.0 * damping * led2) / square,
-                 led0 = (f.begin * shape - 2.0 * led2 - damping * led1) / square;
+    const double led2 = bend / square, led1 = (slope - 4.0 * delta * led2) / square,
+                 led0 = (f.begin * shape - 2.0 * led2 - 2.0 * delta * led1) / square;
     q -= led0;
     v -= led1;
-    of[0] += std::abs(led0) + h * (std::abs(led1) + h * std::abs(led2));
-    of[1] += std::abs(led1) + 2.0 * h * std::abs(led2);
-    of[2] += 2.0 * std::abs(led2);
+    forced[0] += std::abs(led0) + h * (std::abs(led1) + h * std::abs(led2));
+    forced[1] += std::abs(led1) + 2.0 * h * std::abs(led2);
+    forced[2] += 2.0 * std::abs(led2);
   }
-  double slow = std::abs((v - mode.fast * q) / (mode.slow - mode.fast));
-  mode.of_fast = std::abs((mode.slow * q - v) / (mode.slow - mode.fast));
+  const auto set = [i](Decaying& part, double amplitude, double rate, double decay) {
+    part.amplitude[i] = amplitude;
+    part.rate[i] = rate;
+    part.decay[i] = decay;
+  };
+  set(fast_, 0.0, 0.0, 0.0);
+  if (const double over = delta * delta - square; over < -kCritical * square) {
+    set(free_, std::hypot(q, (v + delta * q) / std::sqrt(-over)), omega, delta);
+  } else if (over < kCritical * square) {
+    // q(s) is at most (|q| + |v + delta q| s) e^(-(delta - kappa) s) with kappa <= delta/10; each derivative adds at
+    // most 1/delta to s, and s e^(-0.5 delta s) <= 2/(e delta).
+    set(free_, std::abs(q) + 7.0 * std::abs(v + delta * q) / delta, 1.1 * delta, 0.4 * delta);
+  } else {
+    const double fast = delta + std::sqrt(over), slow = square / fast;
+    set(free_, std::abs((v + fast * q) / (fast - slow)), slow, slow);
+    set(fast_, std::abs((v + slow * q) / (fast - slow)), fast, fast);
+  }
+  const bool is_known = std::isfinite(forced[6]) && std::isfinite(free_.amplitude[i] + fast_.amplitude[i]);
+  for (std::size_t k = 0; k < forced.size(); ++k)
+    forced_[k][i] = is_known ? forced[k] : std::numeric_limits<double>::infinity();
+  if (!is_known) {
+    set(free_, 0.0, 0.0, 0.0);
+    set(fast_, 0.0, 0.0, 0.0);
+  }
+}
+
+void DerivativeBounds::find_bounds(double since) {
+  const auto raise = [since](const Decaying& part, OfModes& of) {
+    ArrayXd size = part.amplitude * (-since * part.decay).exp();
+    for (ArrayXd& bound : of) {
+      bound += size;
+      size *= part.rate;
+    }
+  };
+  of_ = forced_;
+  raise(free_, of_);
+  for (ArrayXd& bound : of_fast_) bound.setZero();
+  raise(fast_, of_fast_);
+  // The energy bounds both parts.
   for (std::size_t k = 0; k < of_.size(); ++k) {
-    of_[k][i] = of[k] + slow;
-    slow *= -mode.slow;
+    const auto whole = (of_[k] + of_fast_[k] <= by_energy_[k]).eval();
+    of_[k] = whole.select(of_[k], by_energy_[k]);
+    of_fast_[k] = whole.select(of_fast_[k], 0.0);
   }
 }
 
 void DerivativeBounds::departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
   const std::size_t breakpoint = breakpoints_.before(begin);
   find(breakpoint);
-  const double h = end - begin, since = begin - breakpoints_.time(breakpoint);
-  const QuinticError error = quintic_error(h, 1.0);
-  const auto& of = of_;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const auto shape = modal_.shape_rows().col(dofs[i]).array().abs();
-    if (!out.x.empty())
-      out.x[i] = (shape * (error.x * of[6]).min(2.0 * of[0] + 0.4 * h * of[1] + 0.035 * h * h * of[2])).sum();
-    if (!out.v.empty()) out.v[i] = (shape * (error.v * of[6]).min(5.0 * of[1] + 0.3 * h * of[2])).sum();
-    if (!out.a.empty()) out.a[i] = (shape * (error.a * of[6]).min(18.0 / h * of[1] + 3.0 * of[2])).sum();
-    for (const Overdamped& mode : overdamped_) {
-      if (mode.fast * since < kForgotten) continue;
-      const double rate = -mode.fast, square = rate * rate,
-                   size = shape[mode.mode] * mode.of_fast * std::exp(-rate * since);
-      const Departure fast(h, size, rate * size, square * size, square * square * square * size);
-      if (!out.x.empty()) out.x[i] += fast.x;
-      if (!out.v.empty()) out.v[i] += fast.v;
-      if (!out.a.empty()) out.a[i] += fast.a;
-    }
-  }
+  const double h = end - begin;
+  find_bounds(begin - breakpoints_.time(breakpoint));
+  const auto put = [&](std::span<double> to, ArrayXd (*departure)(double, const OfModes&)) {
+    if (to.empty()) return;
+    const ArrayXd of_mode = departure(h, of_) + departure(h, of_fast_);
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      to[i] = (modal_.shape_rows().col(dofs[i]).array().abs() * of_mode).sum();
+  };
+  put(out.x, departure_of_x);
+  put(out.v, departure_of_v);
+  put(out.a, departure_of_a);
 }
 
 }  // namespace butee::integrators

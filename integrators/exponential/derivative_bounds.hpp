@@ -24,24 +24,26 @@ class DerivativeBounds {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  /// A mode whose free motion decays at two rates.
-  struct Overdamped {
-    Index mode;
-    double slow, fast;     ///< the roots, 1/s, negative
-    double of_fast = 0.0;  ///< the part of q that decays at the fast rate, at the last breakpoint
+  /// Entry k bounds derivative k of each mode.
+  using OfModes = std::array<Eigen::ArrayXd, 7>;
+  /// Free motion whose derivative k is at most amplitude rate^k e^(-decay s), s behind the breakpoint.
+  struct Decaying {
+    Eigen::ArrayXd amplitude, rate, decay;
   };
+
   /// Computes the bounds for the step that begins at a breakpoint.
   void find(std::size_t breakpoint);
-  /// Lowers the bounds by those of the steady response to harmonic loads and of the free vibration beside it.
-  void find_beside_steady(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v);
-  /// The bounds of an overdamped mode: its steady state and the part of the slow rate; sets of_fast.
-  void find(Overdamped& mode, double t, double h, double q, double v);
+  /// The bounds of a mode with q and v at t by its forced response and its free motion.
+  void find(Index mode, double t, double h, double q, double v);
+  /// of_ := the bounds at `since` behind the breakpoint without the fast parts, and of_fast_ := those of these.
+  void find_bounds(double since);
 
   const dynamics::ModalSystem& modal_;
   const Breakpoints& breakpoints_;
-  std::size_t known_ = kNone;         ///< the breakpoint for which of_ is valid
-  std::array<Eigen::ArrayXd, 7> of_;  ///< entry k bounds derivative k of each mode, without of_fast
-  std::vector<Overdamped> overdamped_;
+  std::size_t known_ = kNone;  ///< the breakpoint for which the bounds are valid
+  OfModes by_energy_, forced_, of_, of_fast_;
+  Decaying free_;  ///< or the slow part of an overdamped mode
+  Decaying fast_;  ///< the fast part of an overdamped mode; amplitude 0: others
 };
 
 }  // namespace butee::integrators

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -233,7 +234,9 @@ double Exponential<Step>::next_load_discontinuity(double t) const {
 
 template <class Step>
 bool Exponential<Step>::holds(const State& from, double t_end) const {
-  return from.t == begin_t_ && t_end == end_t_ && from.memory == begin_memory_;
+  return from.t == begin_t_ && t_end == end_t_ && from.memory.size() == begin_memory_.size() &&
+         std::memcmp(from.memory.data(), begin_memory_.data(),
+                     static_cast<std::size_t>(begin_memory_.size()) * sizeof(double)) == 0;
 }
 
 template <class Step>

@@ -89,7 +89,10 @@ void ModalOutput::interpolate(std::span<const double> times, std::span<const Ind
       for (const std::size_t view : asked_) put(motion_at(from, views_[view]));
       continue;
     }
-    motion_.find(from, t);
+    if (times.size() == 1)
+      motion_.find_and_keep(from, t);
+    else
+      motion_.find(from, t);
     const bool has_a = !out.a.empty();
     const std::span<const Phase> phases = has_a ? motion_.find_phases(t) : std::span<const Phase>();
     const Vector* forces = has_a ? motion_.find_forces(from, t) : nullptr;

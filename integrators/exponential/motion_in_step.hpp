@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "butee/dynamics/dynamics.hpp"
@@ -21,13 +22,19 @@ class MotionInStep {
                const Breakpoints& breakpoints);
 
   /// Starts a new macro step.
-  void begin() { begun_ = kNone; }
+  void begin() {
+    begun_ = kNone;
+    kept_.clear();
+  }
   /// Computes q and v at t in the step that begins at breakpoint `from`.
   void find(std::size_t from, double t);
-  const double* q() const { return motion_.q(); }
-  const double* v() const { return motion_.v(); }
+  /// The same, and keeps them for further calls at t: a search for the peaks of many DOFs halves steps at the same
+  /// instants.
+  void find_and_keep(std::size_t from, double t);
+  const double* q() const { return q_; }
+  const double* v() const { return v_; }
   std::array<double, 3> products(const Vector& shape, const Vector& weight) const {
-    return motion_.products(shape, weight);
+    return dynamics::ModalMotion::products(shape, weight, q_, v_);
   }
 
   /// cos and sin of the harmonic loads at t.
@@ -49,10 +56,14 @@ class MotionInStep {
   std::vector<ContactForce>& contacts_;
   const Breakpoints& breakpoints_;
   dynamics::ModalMotion motion_;
-  std::size_t begun_ = kNone;      ///< the breakpoint at which motion_ begins
-  std::vector<Contact> closed_;    ///< closed stops, whose force is given by the moments
-  std::vector<Contact> changing_;  ///< stops whose force is projected again
-  Vector compliances_;             ///< compliance of each stop for short times, |phi|^2, 1/kg
+  const double *q_ = nullptr, *v_ = nullptr;
+  std::unordered_map<double, std::size_t> kept_;  ///< instants and their places in kept_motion_
+  std::size_t most_kept_;
+  std::vector<double> kept_motion_;  ///< q and v, padded, of each
+  std::size_t begun_ = kNone;        ///< the breakpoint at which motion_ begins
+  std::vector<Contact> closed_;      ///< closed stops, whose force is given by the moments
+  std::vector<Contact> changing_;    ///< stops whose force is projected again
+  Vector compliances_;               ///< compliance of each stop for short times, |phi|^2, 1/kg
   Vector forces_;
   std::vector<Phase> phases_;
 };
