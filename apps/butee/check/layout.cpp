@@ -152,7 +152,7 @@ void add_obstacles(const model::Model& model, const Placer& placer, Layout& layo
   for (const model::ObstacleGroup& group : model.obstacles) {
     if (group.shape == nullptr || group.law == nullptr) continue;
     const bool turns = is_rotation(group.directions.front());
-    const double gap = -group.shape->at({0.0, 0.0}).penetration, beyond = 2.0 * std::abs(gap) + 1.0;
+    const double gap = 0.0 - group.shape->at({0.0, 0.0}).penetration, beyond = 2.0 * std::abs(gap) + 1.0;
     StopMark mark;
     mark.gap = gap;
     mark.positive = group.shape->at({beyond, 0.0}).penetration > 0.0;

@@ -68,7 +68,7 @@ class Stop {
   }
 
   double stiffness() const { return law_->closed_stiffness(); }
-  double gap() const { return play_ != nullptr ? play_->gap : -shape_->at({0.0, 0.0}).penetration; }
+  double gap() const { return play_ != nullptr ? play_->gap : 0.0 - shape_->at({0.0, 0.0}).penetration; }
   /// The displacement towards it, or of any direction in a ring.
   double size_of(const Vector& x) const { return towards(x).norm(); }
   /// The largest one during an oscillation a cos p + b sin p: half the larger axis of its ellipse.

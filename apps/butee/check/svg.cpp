@@ -1,5 +1,6 @@
 #include "svg.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -43,7 +44,8 @@ std::string list_of(const std::vector<std::pair<double, double>>& points) {
 }  // namespace
 
 Svg::Svg(double width, double height)
-    : text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"" +
+    : width_(width),
+      text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"" +
             attribute("width", width) + attribute("height", height) +
             attribute("viewBox", "0 0 " + number(width) + " " + number(height)) +
             " font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n") {}
@@ -69,6 +71,15 @@ void Svg::circle(double x, double y, double radius, const std::string& fill) {
 
 void Svg::text(double x, double y, const std::string& text, const std::string& anchor, double size,
                const std::string& colour) {
+  // The mean width of a character of common sans-serif fonts, over the font size.
+  constexpr double kCharacter = 0.56, kMargin = 4.0;
+  const auto characters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
+  const double length = kCharacter * size * static_cast<double>(characters),
+               left = x - (anchor == "start"    ? 0.0
+                           : anchor == "middle" ? 0.5 * length
+                                                : length),
+               most_left = std::max(kMargin, width_ - kMargin - length);
+  x += std::clamp(left, kMargin, most_left) - left;
   text_ += "<text" + attribute("x", x) + attribute("y", y) + attribute("text-anchor", anchor) +
            attribute("font-size", size) + attribute("fill", colour) + ">" + escaped(text) + "</text>\n";
 }

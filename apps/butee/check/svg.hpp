@@ -15,13 +15,14 @@ class Svg {
   void path(const std::vector<std::pair<double, double>>& points, const std::string& colour, double width = 1.0);
   void polygon(const std::vector<std::pair<double, double>>& points, const std::string& fill);
   void circle(double x, double y, double radius, const std::string& fill);
-  /// `anchor` is start, middle or end; `text` is escaped.
+  /// `anchor` is start, middle or end; `text` is escaped, and moved into the picture if it would begin or end outside.
   void text(double x, double y, const std::string& text, const std::string& anchor = "start", double size = 12.0,
             const std::string& colour = "#222222");
 
   std::string finish() const { return text_ + "</svg>\n"; }
 
  private:
+  double width_;
   std::string text_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include <butee/study/table.hpp>
 
@@ -101,11 +102,15 @@ std::vector<Picture> contact_map(const Result& result, Window window, bool sever
   double last = result.history.rows() > 0 ? result.history.times().back() : 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) last = std::max(last, rows.number(i, "t_out", rows.number(i, "t_in")));
   std::vector<Closing> closings;
+  std::size_t moments = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ContactPlace* place = place_of(result, rows.text(i, "node"));
     const double begin = std::max(rows.number(i, "t_in"), window.from);
     const double end = std::min(rows.number(i, "t_out", last), window.to);
-    if (place != nullptr && begin <= end) closings.push_back({begin, end, place->x, rows.number(i, "peak_force")});
+    if (place == nullptr || !(begin <= end)) continue;
+    closings.push_back({begin, end, place->x, rows.number(i, "peak_force")});
+    const std::optional<DofKind> dof = dof_named(rows.text(i, "dof"));
+    moments += dof && is_rotation(*dof) ? 1 : 0;
   }
   if (closings.empty()) return {};
   const std::size_t found = closings.size();
@@ -113,7 +118,9 @@ std::vector<Picture> contact_map(const Result& result, Window window, bool sever
   closings.resize(std::min(found, kMostClosings));
   // The largest forces are drawn last, over the others.
   std::reverse(closings.begin(), closings.end());
-  const Scale time = scale_for(last, "s"), force = scale_for(closings.back().force, "N");
+  const Scale time = scale_for(last, "s"), force = moments == 0 || moments == found
+                                                       ? scale_for(closings.back().force, moments == 0 ? "N" : "N m")
+                                                       : Scale{1.0, "N or N m"};
   Picture picture;
   picture.name = several ? "contact-map-" + result.label : "contact-map";
   picture.data = "# middle of the time, place, begin, end, lower, upper edge, largest force\n$closings << EOD\n";
@@ -129,12 +136,15 @@ std::vector<Picture> contact_map(const Result& result, Window window, bool sever
   picture.data += "EOD\n";
   const std::string shown =
       found > kMostClosings ? "the hardest " + std::to_string(kMostClosings) + " of " + std::to_string(found) : "";
-  picture.set = title_of(result) + place_axis(result, "y", half) + "set xlabel " + gnuplot::quoted(time.axis("time")) +
-                "\nset xrange [" + short_number(begin * time.factor, 7) + ":" + short_number(end * time.factor, 7) +
-                "]\nset cblabel " + gnuplot::quoted(force.axis("largest force of a contact")) + " offset 1" +
-                "\nset cbrange [0:*]\nset palette defined (0 '#c6dbef', 0.4 '#4292c6', 0.7 '#d62728', 1 '#67000d')\n"
-                "set rmargin at screen 0.84\n" +
-                gnuplot::legend_below(shown.empty() ? std::vector<std::string>{} : std::vector{shown});
+  picture.set =
+      title_of(result) + place_axis(result, "y", half) + "set xlabel " + gnuplot::quoted(time.axis("time")) +
+      "\nset xrange [" + short_number(begin * time.factor, 7) + ":" + short_number(end * time.factor, 7) +
+      "]\nset cblabel " +
+      gnuplot::quoted(force.axis(moments == found ? "largest moment of a contact" : "largest force of a contact")) +
+      " offset 1" +
+      "\nset cbrange [0:*]\nset palette defined (0 '#c6dbef', 0.4 '#4292c6', 0.7 '#d62728', 1 '#67000d')\n"
+      "set rmargin at screen 0.84\n" +
+      gnuplot::legend_below(shown.empty() ? std::vector<std::string>{} : std::vector{shown});
   picture.plot = "plot $closings using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc palette " +
                  (shown.empty() ? std::string("notitle") : "title " + gnuplot::quoted(shown));
   return {picture};
