@@ -78,8 +78,9 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
           error, of_jump(flow, i, scales_.of(i, paths.reached(i), displacement).speed) * goal_.middle * displacement);
     largest = std::max(largest, error);
   }
-  return iteration_.touched().empty() ? largest
-                                      : std::max(largest, of_missed(step, displacement) * goal_.middle * displacement);
+  return iteration_.touched().empty()
+             ? largest
+             : std::max(largest, of_missed(flow, step, displacement) * goal_.middle * displacement);
 }
 
 double ContactError::of_modes(const TriedStep& step) {
@@ -112,13 +113,24 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, const TriedSt
   return error * (displacement / scale.displacement);
 }
 
-double ContactError::of_missed(const TriedStep& step, double displacement) {
+double ContactError::of_missed(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) {
   constexpr double kMissed = 5.0;
   missed_.attempt();
   for (const Index j : iteration_.touched())
-    if (bounds_.is_near(j)) missed_.add(j, iteration_.paths().of(j), scales_.of(j, {}, displacement).speed);
+    if (bounds_.is_near(j))
+      missed_.add(j, iteration_.paths().of(j), scales_.of(j, {}, displacement).speed,
+                  speed_error(flow, j) / modal_.stop_shapes().of(j).squaredNorm());
   const double allowed = kMissed * goal_.tolerance;
   return missed_.error(step.h, step.from.v, allowed) / allowed;
+}
+
+double ContactError::speed_error(dynamics::ContactPropagator& flow, Index stop) const {
+  const ContactPaths& paths = iteration_.paths();
+  if (paths.stays_closed(stop)) return 0.0;
+  const double stiff = iteration_.stiffness(stop) * iteration_.influence().of(flow, stop).coupling[1][0],
+               quartic = paths.quartic()[stop],
+               largest = std::max(kOfSpeed * std::abs(quartic), kOfChange * paths.largest_speed(stop));
+  return std::copysign(stiff * stiff * largest / flow.h(), quartic);
 }
 
 // The phases of the modes are assumed independent. A stop at rest has the speed that the jump itself causes; only

@@ -47,7 +47,10 @@ class ContactError {
   double of_touched(dynamics::ContactPropagator& flow, const TriedStep& step, Index stop, double quartic,
                     double displacement);
   /// Indicator 10, relative to its bound.
-  double of_missed(const TriedStep& step, double displacement);
+  double of_missed(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement);
+  /// The error of the speed of a stop by that of its path, by the models of indicators 2 and 7, m/s, in the sense of
+  /// its quartic; 0 if it stays closed.
+  double speed_error(dynamics::ContactPropagator& flow, Index stop) const;
 
   const dynamics::ModalSystem& modal_;
   const StepGoal& goal_;

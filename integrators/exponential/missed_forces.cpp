@@ -13,12 +13,14 @@ MissedForces::MissedForces(const dynamics::ModalSystem& modal, std::vector<Conta
       contacts_(contacts),
       speeds_(speeds),
       rates_((modal.frequencies().square() + 4.0 * modal.decay().square()).sqrt()),
+      impulse_(rates_),
       cubic_(rates_),
       quartic_(rates_),
       stops_(contacts.size()),
       least_(Vector::Zero(modal.shape_rows().cols())),
       weights_(rates_),
-      received_(rates_) {
+      of_impulse_(rates_),
+      of_rest_(rates_) {
   for (Stop& stop : stops_) stop.response = least_;
 }
 
@@ -29,13 +31,15 @@ void MissedForces::begin() {
 }
 
 void MissedForces::attempt() {
+  impulse_.setZero();
   cubic_.setZero();
   quartic_.setZero();
 }
 
-void MissedForces::add(Index stop, const ContactPath& path, double speed) {
+void MissedForces::add(Index stop, const ContactPath& path, double speed, double impulse) {
   const auto shape = modal_.stop_shapes().of(stop).array();
   const auto [cubic, quartic] = contacts_[static_cast<std::size_t>(stop)].missed(path);
+  impulse_ += impulse * shape;
   cubic_ += cubic * shape;
   quartic_ += quartic * shape;
   if (!stops_[static_cast<std::size_t>(stop)].counts) expect(stop, speed);
@@ -81,12 +85,15 @@ void MissedForces::find_weights() {
 
 double MissedForces::error(double h, const ArrayXd& v, double enough) {
   if (h != received_h_) {
-    received_ = h * (h * rates_).unaryExpr([](double x) { return unresolved_rest(x); });
+    of_impulse_ = (h * rates_).unaryExpr([](double x) { return received_impulse(x); });
+    of_rest_ = h * (h * rates_).unaryExpr([](double x) { return unresolved_rest(x); });
     received_h_ = h;
   }
   const auto error = [this] {
     if (!are_known_) find_weights();
-    return ((cubic_.square() + quartic_.square()) * (received_ * weights_).square()).sum();
+    return (weights_.square() *
+            ((impulse_ * of_impulse_).square() + (cubic_.square() + quartic_.square()) * of_rest_.square()))
+        .sum();
   };
   if (const double square = error(); square <= enough * enough) return std::sqrt(square);
   speeds_.raise(v);

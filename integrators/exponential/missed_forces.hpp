@@ -14,8 +14,13 @@ inline double unresolved_rest(double x) {
   return std::min({kOfCubic * x * x * x, kMostOfRest, 2.0 / x});
 }
 
-/// The errors of the velocities of all components by the part of the stops' forces that their projections miss
-/// (indicator 10 of plugins/exponential/THEORY.md, section 8.1).
+/// Bound of the part of a unit impulse, constant over the step, that such a mode receives.
+inline double received_impulse(double x) {
+  return std::min(1.0, 2.0 / x);
+}
+
+/// The errors of the velocities of all components by the part of the stops' forces that their projections miss,
+/// and by the errors of their paths (indicator 10 of plugins/exponential/THEORY.md, section 8.1).
 ///
 /// The other indicators hold these errors below the tolerance of the stop's own speed. Other components may be slower:
 /// rotations near supports, and all of them at the onset of a first contact. Checked in
@@ -29,8 +34,9 @@ class MissedForces {
   void begin();
   /// Begins an attempt at a step.
   void attempt();
-  /// Adds the force of a stop along a path; `speed` is the largest speed of the stop so far, m/s.
-  void add(Index stop, const ContactPath& path, double speed);
+  /// Adds the force of a stop along a path; `speed` is the largest speed of the stop so far, m/s, and `impulse` the
+  /// error of its impulse by that of the path, N s.
+  void add(Index stop, const ContactPath& path, double speed, double impulse);
   /// The largest velocity error in a step of length h, s, from a state with the modal speeds `v`, relative to the scale
   /// of the component; errors above `enough` are found with scales that include `v`.
   double error(double h, const Eigen::ArrayXd& v, double enough);
@@ -53,14 +59,15 @@ class MissedForces {
   std::vector<ContactForce>& contacts_;
   ComponentSpeeds& speeds_;
   Eigen::ArrayXd rates_;            ///< (omega^2 + 4 delta^2)^(1/2) of the modes, rad/s
+  Eigen::ArrayXd impulse_;          ///< errors of the modal impulses, kg^(1/2) m/s
   Eigen::ArrayXd cubic_, quartic_;  ///< what the projections leave out of the modal forces, N/kg^(1/2)
   std::vector<Stop> stops_;
   Vector least_;  ///< least scales of the components, m/s or rad/s
   Eigen::ArrayXd
       weights_;  ///< of each mode: the largest velocity of a component, relative to its scale, by modal speed
-  bool are_known_ = false;   ///< weights_ are those of the present scales
-  Eigen::ArrayXd received_;  ///< h unresolved_rest() of each mode, for steps of received_h_
-  double received_h_ = 0.0;  ///< s
+  bool are_known_ = false;               ///< weights_ are those of the present scales
+  Eigen::ArrayXd of_impulse_, of_rest_;  ///< received_impulse() and h unresolved_rest() for steps of received_h_
+  double received_h_ = 0.0;              ///< s
 };
 
 }  // namespace butee::integrators

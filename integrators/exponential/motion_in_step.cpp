@@ -28,7 +28,7 @@ MotionInStep::MotionInStep(dynamics::Dynamics& dynamics, const dynamics::ModalSy
 
 void MotionInStep::find_contacts(std::size_t from) {
   // Other components may be slower than the stop.
-  constexpr double kOfOthers = 0.005;
+  constexpr double kOfOthers = 0.001;
   closed_.clear();
   changing_.clear();
   const StepForces& forces = breakpoints_.forces(from);
