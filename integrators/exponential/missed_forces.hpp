@@ -10,8 +10,8 @@ namespace butee::integrators {
 /// Bound of |int_0^1 P_k e^(i x s) ds| for k >= 3: the part of a force P_k, which the projection leaves out, that a
 /// mode would receive whose phase advances by x (rad) in the step (plugins/exponential/constants.py).
 inline double unresolved_rest(double x) {
-  constexpr double kOfCubic = 1.0 / 840.0, kMostOfRest = 0.25;
-  return std::min({kOfCubic * x * x * x, kMostOfRest, 2.0 / x});
+  constexpr double kOfCubic = 1.0 / 840.0, kMostOfRest = 0.25, kFastOfRest = 2.4;
+  return std::min({kOfCubic * x * x * x, kMostOfRest, kFastOfRest / x});
 }
 
 /// Bound of the part of a unit impulse, constant over the step, that such a mode receives.

@@ -391,12 +391,12 @@ def unreceived():
 def unresolved_rest():
     """What a mode receives of a force P_3 or P_4, which the projection leaves out."""
     print("\nA force P_3 or P_4 in a step: what it gives to a mode that turns by x")
-    cubic, most = constant("kOfCubic"), constant("kMostOfRest")
+    cubic, most, fast = constant("kOfCubic"), constant("kMostOfRest"), constant("kFastOfRest")
     s, w = gauss(0.0, 1.0)
     for name, force in (("P_3", 20 * s ** 3 - 30 * s ** 2 + 12 * s - 1),
                         ("P_4", 70 * s ** 4 - 140 * s ** 3 + 90 * s ** 2 - 20 * s + 1)):
         received = lambda x: abs(np.sum(w * np.exp(1j * x * s) * force))
-        worst = max(received(x) / min(cubic * x ** 3, most, 2 / x) for x in np.linspace(0.1, 200.0, 4000))
+        worst = max(received(x) / min(cubic * x ** 3, most, fast / x) for x in np.linspace(0.1, 200.0, 4000))
         compare(f"unresolved_rest: |int {name} e^(i x s)| over it", 1.0, worst, ">=", 3.0)
 
 
