@@ -29,14 +29,9 @@ void ComponentSpeeds::raise(const Eigen::ArrayXd& v) {
   scales_.raise(now_, largest_);
 }
 
-const Vector& ComponentSpeeds::of_kind() {
-  scales_.largest_of_kind(largest_, of_kind_);
-  return of_kind_;
-}
-
 double ComponentSpeeds::relative(const Eigen::ArrayXd& modal_speeds) {
   constexpr double kLeastOfKind = 0.02;
-  of_kind();
+  scales_.largest_of_kind(largest_, of_kind_);
   double largest = 0.0;
   for (Index d = 0; d < largest_.size(); ++d)
     if (const double scale = std::max(largest_[d], kLeastOfKind * of_kind_[d]); scale > 0.0)

@@ -5,8 +5,8 @@
 
 namespace butee::integrators {
 
-/// The largest velocity of each DOF so far, at the starts of macro steps and of steps in which a stop sets components
-/// in motion (ComponentsAtRest). It is a part of the state.
+/// The largest velocity of each DOF so far, at the starts of macro steps and of steps for which MissedForces finds it.
+/// It is a part of the state.
 class ComponentSpeeds {
  public:
   /// `modal` must outlive it.
@@ -25,8 +25,6 @@ class ComponentSpeeds {
   void raise_to(const Vector& speeds) { largest_ = largest_.cwiseMax(speeds); }
   /// In m/s or rad/s.
   const Vector& largest() const { return largest_; }
-  /// For each DOF the largest of its kind.
-  const Vector& of_kind();
   /// The largest velocity of a component by the given speeds of the modes, in independent phases, relative to its
   /// largest velocity so far, or to kLeastOfKind of the largest of its kind; 0 before anything moves.
   double relative(const Eigen::ArrayXd& modal_speeds);

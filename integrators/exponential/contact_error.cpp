@@ -18,7 +18,6 @@ ContactError::ContactError(const model::System& system, const dynamics::ModalSys
                            const ResidualErrors& residual)
     : modal_(modal),
       goal_(goal),
-      contacts_(contacts),
       bounds_(bounds),
       scales_(scales),
       iteration_(iteration),
@@ -67,7 +66,7 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
     const bool is_near = bounds_.is_near(i);
     double error = is_near ? std::abs(quartic) : residual_.jump_error(flow, i, quartic, paths.motion().end[i]);
     if (is_near && iteration_.is_touched(i)) {
-      error = of_touched(flow, step, i, error, displacement);
+      error = of_touched(flow, i, step.t_end, error, displacement);
     } else if (const double depth = paths.excess()[i] + kPathError * std::abs(quartic); is_near && depth > 0.0) {
       const double impulse = iteration_.stiff(flow, i) * depth;
       const ContactScale scale = scales_.of(i, paths.reached(i), displacement);
@@ -89,7 +88,7 @@ double ContactError::of_modes(const TriedStep& step) {
   return modes_.error(step.h) / modes_.allowed(step.t_end);
 }
 
-double ContactError::of_touched(dynamics::ContactPropagator& flow, const TriedStep& step, Index stop, double quartic,
+double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic,
                                 double displacement) {
   const ContactPaths& paths = iteration_.paths();
   const double h = flow.h(), stiffness = iteration_.stiffness(stop);
@@ -100,14 +99,14 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, const TriedSt
   if (stays_closed) {
     const double closed = closed_error(quartic, stiffness * known.coupling[1][0], h, scale);
     changes_.emplace_back(stop, closed);
-    error = std::max(error, closed / accounts_.allowed_closed(stop, step.t_end) * goal_.middle * scale.displacement);
+    error = std::max(error, closed / accounts_.allowed_closed(stop, t_end) * goal_.middle * scale.displacement);
   } else {
     error =
         std::max(error, slope_error(goal_, h * h * stiffness * known.unresolved, paths.largest_speed(stop), h, scale));
     if (paths.changes(stop)) {
       const double change = change_error(stiffness * known.coupling[1][0], paths.largest_speed(stop), h, scale);
       changes_.emplace_back(stop, change);
-      error = std::max(error, change / accounts_.allowed(stop, step.t_end) * goal_.middle * scale.displacement);
+      error = std::max(error, change / accounts_.allowed(stop, t_end) * goal_.middle * scale.displacement);
     }
   }
   return error * (displacement / scale.displacement);

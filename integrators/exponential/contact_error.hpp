@@ -44,8 +44,7 @@ class ContactError {
   double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed);
 
  private:
-  double of_touched(dynamics::ContactPropagator& flow, const TriedStep& step, Index stop, double quartic,
-                    double displacement);
+  double of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic, double displacement);
   /// Indicator 10, relative to its bound.
   double of_missed(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement);
   /// The error of the speed of a stop by that of its path, by the models of indicators 2 and 7, m/s, in the sense of
@@ -54,7 +53,6 @@ class ContactError {
 
   const dynamics::ModalSystem& modal_;
   const StepGoal& goal_;
-  std::vector<ContactForce>& contacts_;
   const DisplacementBounds& bounds_;
   const ContactScales& scales_;
   const ContactIteration& iteration_;

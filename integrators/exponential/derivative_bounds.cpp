@@ -146,12 +146,6 @@ void DerivativeBounds::find_bounds(double since) {
   raise(free_, of_);
   for (ArrayXd& bound : of_fast_) bound.setZero();
   raise(fast_, of_fast_);
-  // The energy bounds both parts.
-  for (std::size_t k = 0; k < of_.size(); ++k) {
-    const auto whole = (of_[k] + of_fast_[k] <= by_energy_[k]).eval();
-    of_[k] = whole.select(of_[k], by_energy_[k]);
-    of_fast_[k] = whole.select(of_fast_[k], 0.0);
-  }
 }
 
 void DerivativeBounds::departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
@@ -159,9 +153,9 @@ void DerivativeBounds::departure(double begin, double end, std::span<const Index
   find(breakpoint);
   const double h = end - begin;
   find_bounds(begin - breakpoints_.time(breakpoint));
-  const auto put = [&](std::span<double> to, ArrayXd (*departure)(double, const OfModes&)) {
+  const auto put = [&](std::span<double> to, ArrayXd (*departure_of)(double, const OfModes&)) {
     if (to.empty()) return;
-    const ArrayXd of_mode = departure(h, of_) + departure(h, of_fast_);
+    const ArrayXd of_mode = (departure_of(h, of_) + departure_of(h, of_fast_)).min(departure_of(h, by_energy_));
     for (std::size_t i = 0; i < dofs.size(); ++i)
       to[i] = (modal_.shape_rows().col(dofs[i]).array().abs() * of_mode).sum();
   };

@@ -35,7 +35,8 @@ class DerivativeBounds {
   void find(std::size_t breakpoint);
   /// The bounds of a mode with q and v at t by its forced response and its free motion.
   void find(Index mode, double t, double h, double q, double v);
-  /// of_ := the bounds at `since` behind the breakpoint without the fast parts, and of_fast_ := those of these.
+  /// of_ := the bounds of the forced and free motion at `since` behind the breakpoint without the fast parts, and
+  /// of_fast_ := those of these.
   void find_bounds(double since);
 
   const dynamics::ModalSystem& modal_;

@@ -20,9 +20,7 @@ MissedForces::MissedForces(const dynamics::ModalSystem& modal, std::vector<Conta
       least_(Vector::Zero(modal.shape_rows().cols())),
       weights_(rates_),
       of_impulse_(rates_),
-      of_rest_(rates_) {
-  for (Stop& stop : stops_) stop.response = least_;
-}
+      of_rest_(rates_) {}
 
 void MissedForces::begin() {
   for (Stop& stop : stops_) stop.counts = false;
@@ -71,6 +69,7 @@ void MissedForces::find_response(Index stop, double speed) {
     rate = std::sqrt(contact.tangent_behind(speed / rate) * compliance);
   const ArrayXd modes = shape / (1.0 + (rates_ / rate).square());
   const double own = (shape * modes).sum();
+  of.response.resize(least_.size());
   for (Index d = 0; d < of.response.size(); ++d)
     of.response[d] = own > 0.0 ? (modal_.shape_rows().col(d).array() * modes).matrix().norm() / own : 0.0;
 }

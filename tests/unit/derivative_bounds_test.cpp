@@ -91,6 +91,35 @@ TEST(DerivativeBounds, OfAnOverdampedModeForgetItsFastRate) {
   });
 }
 
+/// Free motion that decays, from x = 1, v = 30, at damping ratios on both sides of 1 and beside it: the bounds decay,
+/// too.
+TEST(DerivativeBounds, OfDampedModesForgetTheStart) {
+  constexpr double kOmega = 10.0, kX = 1.0, kV = 30.0;
+  for (const double ratio : {0.3, 0.9, 0.9975, 1.0, 1.003, 1.1, 3.0}) {
+    SceneRun run(
+        mass_on_spring("100.0", "[damping]\nmass_proportional = " + std::to_string(2.0 * ratio * kOmega) + "\n"));
+    const double delta = ratio * kOmega;
+    // sinh(kappa t)/kappa and cosh(kappa t); kappa is imaginary for oscillations.
+    const std::complex<double> kappa = std::sqrt(std::complex<double>(delta * delta - kOmega * kOmega));
+    const auto at = [&](double t) {
+      const double sinh = std::abs(kappa) < 1e-6 ? t : (std::sinh(kappa * t) / kappa).real(),
+                   cosh = std::cosh(kappa * t).real(), decay = std::exp(-delta * t);
+      const double x = decay * (kX * cosh + (kV + delta * kX) * sinh),
+                   v = decay * (kV * cosh - (kOmega * kOmega * kX + delta * kV) * sinh);
+      return Motion{x, v, -kOmega * kOmega * x - 2.0 * delta * v};
+    };
+    double first = 0.0;
+    SCOPED_TRACE(ratio);
+    compare(run, at, [&](double begin, double h, const Motion& bound) {
+      if (h != 0.05) return;
+      if (begin == 0.0) first = bound.x;
+      if (begin == 1.2) {
+        EXPECT_LT(bound.x, 0.2 * first);
+      }
+    });
+  }
+}
+
 /// x'' + x' + 1600 x = 3 cos(5t + 1): the steady response alone, and with a free vibration, also one whose speed at the
 /// start is twice and in the sense opposite to that of the steady response.
 TEST(DerivativeBounds, OfAFastModeAreThoseOfItsSteadyResponseAndFreeVibration) {

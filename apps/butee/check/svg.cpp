@@ -71,8 +71,8 @@ void Svg::circle(double x, double y, double radius, const std::string& fill) {
 
 void Svg::text(double x, double y, const std::string& text, const std::string& anchor, double size,
                const std::string& colour) {
-  // The mean width of a character of common sans-serif fonts, over the font size.
-  constexpr double kCharacter = 0.56, kMargin = 4.0;
+  // The width of a character of wide sans-serif fonts, over the font size.
+  constexpr double kCharacter = 0.65, kMargin = 4.0;
   const auto characters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
   const double length = kCharacter * size * static_cast<double>(characters),
                left = x - (anchor == "start"    ? 0.0
