@@ -46,8 +46,8 @@ class ContactForce {
   double tangent_at(double w) const;
   /// The same at a penetration, m.
   double tangent_behind(double penetration) const;
-  /// What the projection leaves out of the force along a path, as coefficients of P_3 and P_4, N: exact for a spring,
-  /// so that both ends are met otherwise.
+  /// The coefficients of P_3 and P_4 in the force along a path, N, which its projection leaves out. They are exact for
+  /// a spring; for other laws these two terms are chosen to meet the force at both ends of the step.
   std::pair<double, double> missed(const ContactPath& path);
   /// Sets the allowed error of the force, N, if it persists for the whole run and if it persists
   /// for the characteristic time of the motion. Approximations of the rest with larger errors are
