@@ -28,7 +28,7 @@ class StudyWatch {
       if (error_) return;
       try {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!progress_.is_none()) progress_(now.done, now.total);
+        if (!progress_.is_none()) call(progress_, py::make_tuple(now.done, now.total));
       } catch (py::error_already_set& error) {
         error_.emplace(error);
       }
@@ -105,7 +105,7 @@ std::optional<double> horizon_of(const scene::Scene& scene, const Session& sessi
   const Session judged(scene.document, session.plugins(), scene.catalogue);
   return with_interpreter([&] {
     try {
-      return horizon(judged).cast<double>();
+      return call(horizon, py::make_tuple(judged)).cast<double>();
     } catch (py::error_already_set& error) {
       throw RunError(error.what());
     }

@@ -16,6 +16,13 @@ namespace butee::python {
 template <class Use>
 auto with_interpreter(const Use& use);
 
+/// function(arguments...), called with the lock held. A thread that waits for the end of the process in it keeps the
+/// objects of its callers alive: they must not be released without the lock.
+pybind11::object call(pybind11::handle function, const pybind11::tuple& arguments);
+
+/// Makes Python say which thread ends the interpreter; called when the module is imported.
+void bind_end_of_interpreter();
+
 /// Releases the lock, and acquires it again in the same way.
 class WithoutInterpreter {
  public:

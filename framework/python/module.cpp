@@ -1,6 +1,7 @@
 #include "butee/plugin/module.hpp"
 
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/version.hpp"
 
 PYBIND11_MODULE(_butee, module) {
@@ -9,6 +10,7 @@ PYBIND11_MODULE(_butee, module) {
   module.attr("version") = BUTEE_VERSION;
   module.attr("plugin_folder") = butee::plugin::standard_plugin_folder();
   module.attr("lib_to_program") = BUTEE_LIB_TO_PROGRAM;
+  bind_end_of_interpreter();
   bind_errors(module);
   bind_loads(module);
   bind_laws(module);

@@ -30,7 +30,7 @@ inline double call_with(const pybind11::function& function, double first, const 
     for (std::size_t i = 0; i < parameters.size(); ++i) arguments[i + 1] = parameters[i];
     pybind11::object result;
     try {
-      result = function(*arguments);
+      result = call(function, arguments);
     } catch (const pybind11::error_already_set& error) {
       // Ctrl-C within the function ends the run, and is raised where the run was called.
       if (!error.matches(PyExc_KeyboardInterrupt)) throw;

@@ -47,7 +47,7 @@ bool PythonWatch::has_raised(double t) {
   return with_interpreter([&] {
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress_.is_none()) progress_(t);
+      if (!progress_.is_none()) call(progress_, pybind11::make_tuple(t));
     } catch (py::error_already_set& error) {
       error_.emplace(error);
     }
