@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "butee/core/error.hpp"
+#include "butee/dynamics/slow_modes.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/general_pairs.hpp"
 
@@ -21,7 +22,7 @@ constexpr long double kUncoupled = 1e-14L;
 constexpr long double kGrowing = 1e-15L;
 /// A squared frequency phi^T K phi below this fraction of |phi|^T |K| |phi| is rounding of the entries of K, which are
 /// doubles: the motion is rigid.
-constexpr long double kRigid = 16.0L * std::numeric_limits<double>::epsilon();
+constexpr long double kRigid = dynamics::kRoundingOfEntries * std::numeric_limits<double>::epsilon();
 /// Largest condition number of the eigenvector matrix; a larger one loses six digits or more.
 constexpr long double kParallel = 1e6L;
 /// Modes below this fraction of the largest squared frequency are found once more, among themselves.

@@ -65,7 +65,7 @@ std::string text_complaint(const Parameter& parameter, const Value& value) {
     return "must be one of " + quoted_choices(parameter) + suggestion(*text, parameter.choices);
   const std::vector<std::string> first(parameter.choices.begin(), parameter.choices.begin() + kShown);
   return "must be one of \"" + join(first, "\", \"") + "\" and " + std::to_string(parameter.choices.size() - kShown) +
-         " more (`butee help` lists them)" + suggestion(*text, parameter.choices);
+         " more (`butee help output` lists the " + parameter.name + ")" + suggestion(*text, parameter.choices);
 }
 
 template <class Complaint>

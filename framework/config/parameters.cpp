@@ -105,9 +105,13 @@ std::optional<Parameters> read_parameters(const Value& value, const std::string&
   for (const std::string& key : ignored)
     if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
 
+  // A required key that is meant by a wrong one counts as a single mistake.
+  std::vector<std::string> meant;
   for (const auto& [key, item] : table->entries)
-    if (std::find(known.begin(), known.end(), key) == known.end())
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
       diagnostics.error(prefix + key, item, "unknown key" + suggestion(key, known) + "; known here: " + join(known));
+      meant.push_back(closest_name(key, known));
+    }
   for (const Parameter& parameter : declared) {
     const Value* given = table->find(parameter.name);
     if (given != nullptr) {
@@ -117,7 +121,7 @@ std::optional<Parameters> read_parameters(const Value& value, const std::string&
         parameters.set(parameter.name, *given, true);
     } else if (parameter.fallback) {
       parameters.set(parameter.name, *parameter.fallback, false);
-    } else if (parameter.required) {
+    } else if (parameter.required && std::find(meant.begin(), meant.end(), parameter.name) == meant.end()) {
       const std::string unit = parameter.unit.empty() || parameter.unit == "1" ? "" : ", " + parameter.unit;
       diagnostics.error(prefix + parameter.name, value.at,
                         "missing; give " + parameter.help + " (" + parameter.describe() + unit + ")");

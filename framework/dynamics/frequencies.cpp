@@ -1,8 +1,10 @@
 #include "butee/dynamics/frequencies.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include <Eigen/SparseCholesky>
@@ -29,8 +31,8 @@ constexpr int kLanczosRestarts = 200;
 constexpr double kShapeTolerance = 1e-12;
 /// Eigenvalues below this fraction of the highest are not counted: they may be rounding.
 constexpr double kCountable = 1e-13;
-/// A mode is rigid motion if its eigenvalue is below this part of the sum of the magnitudes in phi^T K phi.
-constexpr double kRigid = 16.0 * std::numeric_limits<double>::epsilon();
+/// A stiffness is not negative if its eigenvalue is above minus this part of the sum of the magnitudes in phi^T K phi.
+constexpr double kNotNegative = 16.0 * std::numeric_limits<double>::epsilon();
 /// The position between two eigenvalues at which they are counted, relative to the larger.
 constexpr double kCountedBelow = 1e-6;
 
@@ -113,9 +115,9 @@ std::optional<Modes> modes_of(const SparseMatrix& stiffness, linalg::Pairs pairs
   const Eigen::MatrixXd sizes = pairs.vectors.leftCols(soft).cwiseAbs(), forces = stiffness.cwiseAbs() * sizes;
   for (Index i = 0; i < soft; ++i) {
     double& value = pairs.values[i];
-    const double rounding = kRigid * sizes.col(i).dot(forces.col(i));
-    if (value < -rounding) require_no_growth(value, 0.0);
-    if (value <= rounding) value = 0.0;
+    const double size = sizes.col(i).dot(forces.col(i));
+    if (value < -kNotNegative * size) require_no_growth(value, 0.0);
+    if (value <= kRoundingOfEntries * std::numeric_limits<double>::epsilon() * size) value = 0.0;
   }
   return Modes{pairs.values.cwiseSqrt(), std::move(pairs.vectors)};
 }
@@ -180,6 +182,47 @@ double contact_frequency(const model::System& system, const ElasticStops& contac
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
       if (dof >= 0) square = std::max(square, stiffness[i] / system.mass.coeff(dof, dof));
   return std::sqrt(square);
+}
+
+double shortest_impact(const model::System& system) {
+  constexpr std::size_t kMostSamples = 200;
+  /// A unit force along `direction` from body b, or the ground, on body a.
+  struct Force {
+    double stiffness;
+    std::array<Index, 2> a, b;
+    Eigen::Vector2d direction;
+  };
+  constexpr Index kGround = model::FreeStops::kGround;
+  std::vector<Force> forces;
+  for (const model::FreeStops& stops : system.stops)
+    for (std::size_t i = 0; i < stops.size(); ++i)
+      forces.push_back(
+          {stops.law->closed_stiffness(), {stops.a[i], kGround}, {stops.b[i], kGround}, Eigen::Vector2d::UnitX()});
+  for (const model::FreeObstacles& obstacles : system.obstacles) {
+    const model::ObstacleGroup& group = *obstacles.group;
+    if (group.shape == nullptr || group.law == nullptr) continue;
+    const model::ContactShape::Form form = group.shape->form();
+    const Eigen::Vector2d direction =
+        form.kind == model::ContactShape::Form::Kind::line ? form.place : Eigen::Vector2d::UnitX();
+    for (const model::FreeObstacles::Ends& ends : obstacles.ends)
+      forces.push_back({group.law->closed_stiffness(), {ends.a[0], ends.a[1]}, {ends.b[0], ends.b[1]}, direction});
+  }
+  double shortest = std::numeric_limits<double>::infinity();
+  if (forces.empty()) return shortest;
+  const Inverse inverse(system.mass);
+  if (!inverse.is_regular()) return shortest;
+  Vector moved(system.size());
+  for (std::size_t i = 0; i < forces.size(); i += std::max<std::size_t>(1, forces.size() / kMostSamples)) {
+    const Force& force = forces[i];
+    Vector s = Vector::Zero(system.size());
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (force.a[k] >= 0) s[force.a[k]] += force.direction[static_cast<Index>(k)];
+      if (force.b[k] >= 0) s[force.b[k]] -= force.direction[static_cast<Index>(k)];
+    }
+    inverse.apply(s.data(), moved.data());
+    shortest = std::min(shortest, std::numbers::pi / std::sqrt(force.stiffness * s.dot(moved)));
+  }
+  return shortest;
 }
 
 SparseMatrix damping_of_contacts(const model::System& system) {

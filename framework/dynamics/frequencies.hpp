@@ -47,9 +47,14 @@ struct Modes {
 BUTEE_EXPORT std::optional<Modes> lowest_modes(const model::System& system, Index count);
 
 /// The largest sqrt(k_c/m) of all stops, rad/s, with the masses on the diagonal of M at the stop's
-/// DOFs: a lower estimate of the frequency of an impact, whose duration is pi divided by it. 0
+/// DOFs: a lower estimate of the frequency of an impact, cheaper than shortest_impact(). 0
 /// without stops.
 BUTEE_EXPORT double contact_frequency(const model::System& system, const ElasticStops& contact);
+
+/// The duration of the shortest impact, s: pi/sqrt(k_c s^T M^-1 s) for a unit force s on a stop, ring or plane; the
+/// structure behind it makes an impact longer. Of more than 200 contacts as many evenly spaced ones count. Infinite
+/// without contacts, or if M is singular.
+BUTEE_EXPORT double shortest_impact(const model::System& system);
 
 /// K, or K + S^T k_c S with all stops closed.
 BUTEE_EXPORT SparseMatrix stiffness_with_stops(const model::System& system, StopState stops);

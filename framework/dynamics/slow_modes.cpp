@@ -69,7 +69,8 @@ Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix&
   for (Index i = 0; i < count; ++i)
     for (Index j = 0; j < count; ++j) {
       double& value = product(i, j);
-      if (i == j ? std::abs(value) <= still || ((value < 0.0 || is_unlimited) && std::abs(value) < rounding(i, i))
+      if (i == j ? std::abs(value) <= still || (value < 0.0 && -value < rounding(i, i)) ||
+                       (is_unlimited && std::abs(value) < kRoundingOfEntries * rounding(i, i))
                  : std::abs(value) <= std::max(rounding(i, j), kMixed * std::abs(squares[i] - squares[j])))
         value = 0.0;
     }

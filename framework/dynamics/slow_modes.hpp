@@ -10,6 +10,10 @@ namespace butee::dynamics {
 // frequencies and shapes. `squares` are the squares of all frequencies, ascending, rad2/s2; column i of `shapes` is
 // mode i. Theory: plugins/exponential/COLLOCATION.md, section 1.
 
+/// phi^T K phi below this part of epsilon |phi|^T |K| |phi| is rounding of the entries of K: at most 0.14 of it for
+/// rigid motion of beams with uneven meshes (RigidMotion.OfUnevenMeshesIsFound), (m - 1)/8 where m springs meet.
+constexpr double kRoundingOfEntries = 0.5;
+
 /// The number of modes that do not oscillate within a run of `run_time` seconds or whose frequency is rounding.
 Index count_rigid(const Vector& squares, double run_time);
 
@@ -31,7 +35,7 @@ Eigen::MatrixXd soft_product(Index count, const SparseMatrix& matrix, const Eige
 /// eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn shapes of similar
 /// frequency into one another, and move a free body by kappa t^2/6 of its way if kappa is the error of omega^2. Entries
 /// that are rounding of K, or turn no shape by more than 1e-9, are 0; so are those of the diagonal that are below 0 by
-/// rounding or do not act within `run_time` seconds or, if that is infinite, are not above rounding.
+/// rounding or do not act within `run_time` seconds or, if that is infinite, are not above kRoundingOfEntries.
 Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix& stiffness,
                                const Eigen::MatrixXd& shapes);
 

@@ -6,6 +6,13 @@
 
 namespace butee::record {
 
+namespace {
+
+/// Some methods refuse smaller ones.
+constexpr double kSmallestTolerance = 1e-10;
+
+}  // namespace
+
 SlipWatch::SlipWatch(dynamics::Dynamics& dynamics) : obstacles_(*dynamics.obstacles()) {
   for (Index i = 0; i < obstacles_.size(); ++i)
     if (obstacles_.group_of(i).friction.slip_speed > 0.0) contacts_.push_back(i);
@@ -30,14 +37,23 @@ std::string SlipWatch::complaint(double tolerance) const {
     if (unresolved > most) most = unresolved, worst = i;
   }
   if (worst == contacts_.size()) return "";
-  const double slip_speed = obstacles_.group_of(contacts_[worst]).friction.slip_speed;
+  const model::ObstacleGroup& group = obstacles_.group_of(contacts_[worst]);
+  const double slip_speed = group.friction.slip_speed, tighter = slip_speed / largest_[worst];
+  using Kind = model::ContactShape::Form::Kind;
+  // Friction supports slip along a line.
+  const model::ContactShape::Form form = group.shape != nullptr ? group.shape->form() : model::ContactShape::Form();
+  const Kind kind = group.shape == nullptr ? Kind::line : form.kind;
+  const bool may_stick = kind == Kind::line || (kind == Kind::circle && form.distance != 0.0);
+  std::string others = tighter >= kSmallestTolerance ? "tolerance = " + to_short_text(tighter) + " or less" : "";
+  if (may_stick)
+    others += std::string(others.empty() ? "" : ", or ") + "stick_stiffness" +
+              (kind == Kind::line ? " or stick = \"rigid\"" : "") + ", which needs no slip_speed";
   return "the friction at " + obstacles_.name_of(contacts_[worst]) +
          " reverses within slip_speed = " + to_short_text(slip_speed) + " m/s, but for the tolerance " +
          to_short_text(tolerance) + " the error of the speed there, which reaches " + to_short_text(largest_[worst]) +
          " m/s, may be " + to_short_text(tolerance * largest_[worst]) +
-         " m/s. Take slip_speed = " + to_short_text(tolerance * largest_[worst]) +
-         " or more, tolerance = " + to_short_text(slip_speed / largest_[worst]) +
-         " or less, or stick_stiffness or stick = \"rigid\", which need no slip_speed";
+         " m/s. Take slip_speed = " + to_short_text(tolerance * largest_[worst]) + " or more" +
+         (others.empty() ? "" : ", or " + others);
 }
 
 }  // namespace butee::record

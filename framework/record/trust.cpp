@@ -15,11 +15,11 @@ constexpr double kOfExact = 1.5, kOfAnother = 3.0, kOfNone = 10.0, kOfNoise = 3.
 constexpr double kMeaningless = 1.0;
 constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 
-/// The peak of each history, but at least kLeastOfKind of the largest of its kind.
+/// The peak of each history, but at least kLeastOfKind of the largest of its kind in the structure.
 std::vector<double> scales_of(const Histories& histories) {
   constexpr double kLeastOfKind = 1e-3;
   std::vector<double> scales;
-  std::array<double, 2> largest{};
+  std::array<double, 2> largest = histories.largest_of_kind;
   const auto kind = [&](std::size_t i) { return i < histories.rotations.size() && histories.rotations[i] ? 1U : 0U; };
   for (std::size_t i = 0; i < histories.values.size(); ++i) {
     double peak = 0.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct Histories {
   std::vector<double> times;                ///< s
   std::vector<std::vector<double>> values;  ///< one for each displacement, m, and rotation, rad
   std::vector<bool> rotations{};            ///< which of them are rotations; none if empty
+  /// The largest displacement, m, and rotation, rad, of the whole structure; 0 where only `values` are known.
+  std::array<double, 2> largest_of_kind{};
 };
 
 /// The runs of one scene on which a judgement is based. Missing runs have no times.

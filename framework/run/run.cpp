@@ -204,16 +204,15 @@ void Run::look_at_stability() {
 
 void Run::look_at_rows() {
   const model::OutputRequest& output = scene_.output;
-  const double frequency = dynamics::contact_frequency(assembly_.system, assembly_.dynamics.stops());
-  if (!output.interval || output.impacts || !(frequency > 0.0)) return;
-  const double contact = std::numbers::pi / frequency;
-  if (*output.interval * kRowsInContact <= contact) return;
+  if (!output.interval || output.impacts) return;
   const double pull = largest_pull(assembly_.dynamics.stops());
   const bool has_struck = std::any_of(summary_.peaks.begin(), summary_.peaks.end(), [&](const auto& peak) {
     return peak.first.ends_with(".contact_force") && peak.second > kMoreThanPull * pull;
   });
   if (!has_struck) return;
-  summary_.report.warnings.push_back("an impact lasts about " + to_short_text(contact) +
+  const double contact = dynamics::shortest_impact(assembly_.system);
+  if (*output.interval * kRowsInContact <= contact) return;
+  summary_.report.warnings.push_back("an impact can be as short as " + to_short_text(contact) +
                                      " s and history.csv has a row every " + to_short_text(*output.interval) +
                                      " s, too few to resolve its force. Take interval = " +
                                      to_short_text(contact / (2.5 * kRowsInContact)) + ", or impacts = true");

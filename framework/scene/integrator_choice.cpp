@@ -137,6 +137,7 @@ class ChoiceReader {
                     ": remove it, or move it to a table [integrator." + owners.front() +
                     "], which counts where that method is chosen";
       diagnostics_.error("integrator." + key, value, complaint + "; known here: " + join(known));
+      meant_.push_back(closest_name(key, known));
     }
   }
 
@@ -154,11 +155,13 @@ class ChoiceReader {
         if (value != nullptr && !parameter.complaint(*value).empty()) continue;
       }
       if (value != nullptr) merged[parameter.name] = *value;
-      // Whether a step is needed depends on the method.
-      declared.push_back(chosen == nullptr && parameter.name == "time_step" ? Parameter(parameter).optional()
-                                                                            : parameter);
+      // Whether a step is needed depends on the method; a key that is meant by a wrong one counts as a single mistake.
+      const bool may_lack = (chosen == nullptr && parameter.name == "time_step") ||
+                            std::find(meant_.begin(), meant_.end(), parameter.name) != meant_.end();
+      declared.push_back(may_lack ? Parameter(parameter).optional() : parameter);
     }
-    return read_parameters(Value(std::move(merged), at_), "integrator", declared, diagnostics_);
+    auto read = read_parameters(Value(std::move(merged), at_), "integrator", declared, diagnostics_);
+    return meant_.empty() ? read : std::nullopt;
   }
 
   const Table& table_;
@@ -166,6 +169,7 @@ class ChoiceReader {
   const plugin::Catalogue& catalogue_;
   Diagnostics& diagnostics_;
   std::map<const plugin::IntegratorEntry*, const Value*> method_tables_;
+  std::vector<std::string> meant_;  ///< keys closest to unknown ones
 };
 
 /// Overrides are the sources after the file.

@@ -72,7 +72,8 @@ void SceneReader::read_base_entry(const Value& entry, const std::string& path, b
                        "belongs to acceleration; displacement already defines the velocity");
   const Value& motion = p->value(key);
   if (motion.table() == nullptr) return diagnostics_.error(path + "." + key, motion, "must be one table, not several");
-  const auto in_time = read_in_time(motion, path + "." + key, {"direction"});
+  const char* const unit = key == "acceleration" ? "m/s2" : "m";
+  const auto in_time = read_in_time(motion, path + "." + key, {"direction"}, unit);
   std::vector<std::string> others;
   for (const auto& [name, value] : motion.table()->entries)
     if (name != "direction") others.push_back(name);
@@ -93,7 +94,7 @@ void SceneReader::read_base_entry(const Value& entry, const std::string& path, b
   if (!base.motion) {
     if (base.nodes.empty() && model_.base_frame == BaseFrame::moving) {
       auto pattern = inertia_pattern(model_, -base.direction);
-      Load load{std::move(pattern), read_in_time(motion, path + "." + key, {"direction"}), nullptr, 0.0};
+      Load load{std::move(pattern), read_in_time(motion, path + "." + key, {"direction"}, unit), nullptr, 0.0};
       load.acceleration = -base.direction;
       model_.loads.push_back(std::move(load));
     } else {

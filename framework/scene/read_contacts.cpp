@@ -230,6 +230,9 @@ bool SceneReader::add_contacts(const Parameters& p, const ContactKind& kind, con
   for (std::size_t i = 0; i < parts.gaps.size(); ++i) {
     auto law = kind.law != nullptr ? kind.law->make(p, diagnostics_) : nullptr;
     if (!kind.is_support() && law == nullptr) return false;
+    if (law != nullptr && i == 0)
+      for (const auto* nodes : {&parts.a, &parts.b})
+        check_rate(p, "stiffness", law->closed_stiffness(), *nodes, parts.directions);
     const bool dissipates = law != nullptr && law->rate_dependence() != ContactLaw::RateDependence::none;
     if (dissipates && is_damped) {
       p.complain(diagnostics_, "damping",

@@ -47,6 +47,7 @@ void SceneReader::read_damping() {
           "applies to rotating parts, but nothing turns: give [rotation] with a speed, or use stiffness_proportional");
     model_.damping.mass_proportional = p->number("mass_proportional");
     model_.damping.stiffness_proportional = p->number("stiffness_proportional");
+    check_decay(*p);
   }
   const Value* modal = table->table() != nullptr ? table->table()->find("modal") : nullptr;
   if (modal == nullptr) return;

@@ -11,6 +11,8 @@ using config::Value;
 
 namespace {
 
+/// The unit of the values of a load.
+constexpr const char* kOfLoads = "N";
 const std::vector<std::string> kDirections = {"u", "w", "ux", "uy", "uz"};
 
 }  // namespace
@@ -27,7 +29,7 @@ void SceneReader::read_load(const Value& entry, const std::string& path) {
   if (type == "distributed") return read_distributed(entry, path);
   if (type == "unbalance" && entry.table()->find("speed") == nullptr) return read_turning_unbalance(entry, path);
 
-  auto in_time = type ? read_in_time(entry, path, {"node", "dof"}) : nullptr;
+  auto in_time = type ? read_in_time(entry, path, {"node", "dof"}, kOfLoads) : nullptr;
   std::vector<std::string> in_time_keys;
   for (const auto& [key, value] : entry.table()->entries)
     if (key != "node" && key != "dof") in_time_keys.push_back(key);
@@ -86,7 +88,7 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
   if (!p) return;
   std::unique_ptr<TimeFunction> in_time;
   if (p->has("in_time")) {
-    in_time = read_in_time(p->value("in_time"), path + ".in_time", {});
+    in_time = read_in_time(p->value("in_time"), path + ".in_time", {}, "1");
   } else {
     config::Table unity;
     unity["value"] = Value(1.0);
@@ -119,7 +121,7 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
 }
 
 std::unique_ptr<TimeFunction> SceneReader::read_in_time(const Value& entry, const std::string& path,
-                                                        const std::vector<std::string>& ignored) {
+                                                        const std::vector<std::string>& ignored, const char* unit) {
   const auto name = type_of(entry, path, "type", type_names(types_.loads));
   if (!name) return nullptr;
   const LoadType& type = *find_type(types_.loads, *name);
@@ -127,7 +129,13 @@ std::unique_ptr<TimeFunction> SceneReader::read_in_time(const Value& entry, cons
   skipped.emplace_back("type");
   for (const std::string& key : names_of(type.parameters)) skipped.push_back(key);
   report_keys_of_others(entry, path, "type = \"" + *name + "\"", types_.loads, skipped, diagnostics_);
-  const auto p = read_parameters(entry, path, type.parameters, diagnostics_, skipped);
+  std::vector<config::Parameter> declared = type.parameters;
+  for (config::Parameter& parameter : declared) {
+    if (parameter.unit != kOfLoads || unit == std::string(kOfLoads)) continue;
+    parameter.unit = unit;
+    parameter.help = parameter.help.substr(0, parameter.help.find(" (N m on"));
+  }
+  const auto p = read_parameters(entry, path, declared, diagnostics_, skipped);
   return p ? type.make(*p, diagnostics_) : nullptr;
 }
 

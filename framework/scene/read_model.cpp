@@ -90,6 +90,7 @@ Model SceneReader::read() {
   read_supports();
   dofs_.emplace(number_dofs(model_));
   if (diagnostics_.error_count() == 0) check_dofs();
+  if (diagnostics_.error_count() == 0) check_magnitudes();
   read_contacts();
   read_loads();
   read_gravity();
@@ -165,16 +166,19 @@ void SceneReader::read_supports() {
     if (p->texts("fix").empty())
       p->complain(diagnostics_, "fix", "holds nothing; name \"u\", \"theta\" or others of ux ... rz");
     if (!nodes) continue;
-    for (const std::string& kind : p->texts("fix"))
-      for (const NodeId node : *nodes) {
-        const NodalDof dof{node, *dof_named(kind)};
-        if (dofs.exists(dof))
+    for (const std::string& kind : p->texts("fix")) {
+      std::vector<NodeId> lacking;
+      for (const NodeId node : *nodes)
+        if (const NodalDof dof{node, *dof_named(kind)}; dofs.exists(dof))
           model_.fixed.push_back(dof);
-        else if (!lacks_elements_)
-          p->complain(
-              diagnostics_, "fix",
-              model_.nodes.name(node) + " has no " + kind + ": no element there uses it" + motion_with(dof.kind));
-      }
+        else
+          lacking.push_back(node);
+      if (lacking.empty() || lacks_elements_) continue;
+      const std::string others = lacking.size() > 1 ? ", nor have " + std::to_string(lacking.size() - 1) + " more" : "";
+      p->complain(diagnostics_, "fix",
+                  model_.nodes.name(lacking.front()) + " has no " + kind + others + ": no element there uses it" +
+                      motion_with(*dof_named(kind)));
+    }
   }
 }
 

@@ -72,7 +72,7 @@ std::unique_ptr<Rotation> SceneReader::read_speed(const Value& rotation) {
     return nullptr;
   }
   const auto type = type_of(*given, "rotation.speed", "type", {"constant", "ramp", "table"});
-  auto in_time = type ? read_in_time(*given, "rotation.speed", {}) : nullptr;
+  auto in_time = type ? read_in_time(*given, "rotation.speed", {}, "rad/s") : nullptr;
   if (in_time == nullptr) return nullptr;
   std::vector<double> times = in_time->discontinuities(), speeds;
   if (times.empty()) times = {0.0};

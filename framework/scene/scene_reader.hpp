@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "butee/scene/element_sums.hpp"
 #include "butee/scene/read_model.hpp"
 
 namespace butee::scene {
@@ -79,8 +80,9 @@ class SceneReader {
   void read_load(const config::Value& entry, const std::string& path);
   void read_turning_unbalance(const config::Value& entry, const std::string& path);
   void read_distributed(const config::Value& entry, const std::string& path);
+  /// `unit`: that of the values.
   std::unique_ptr<TimeFunction> read_in_time(const config::Value& entry, const std::string& path,
-                                             const std::vector<std::string>& ignored);
+                                             const std::vector<std::string>& ignored, const char* unit);
   void read_damping();
   void read_modal_damping(const config::Value& given);
   void read_initial();
@@ -90,6 +92,14 @@ class SceneReader {
   std::vector<NodalValue> rigid_rotation(const config::Parameters& parameters, const std::vector<NodeId>& nodes);
   void read_initial_motion(const config::Parameters& parameters);
   void check_dofs();
+  /// Reports elements whose matrices are not finite or too stiff to be computed, and those whose stiffness the sum with
+  /// that of other elements loses.
+  void check_magnitudes();
+  /// Reports a contact that is too stiff for the mass at its nodes; `stiffness` in N/m or N m/rad.
+  void check_rate(const config::Parameters& parameters, const std::string& key, double stiffness,
+                  const std::vector<NodeId>& nodes, const std::vector<DofKind>& directions);
+  /// Reports Rayleigh damping that is too strong to be computed.
+  void check_decay(const config::Parameters& parameters);
   void check_free(const config::Parameters& parameters, const std::string& key, NodalDof dof, const char* what);
 
   /// The entries of an array of tables at the root, each with its path ("contact[0]").
@@ -110,6 +120,7 @@ class SceneReader {
   config::Diagnostics& diagnostics_;
   Model model_;
   std::optional<DofTable> dofs_;
+  std::optional<ElementSums> sums_;          ///< absent after an error in an element or a support
   std::optional<std::size_t> gravity_load_;  ///< index among the loads
   std::optional<BaseFrame> stop_frame_;      ///< of the stops to ground, if there are any
   std::map<std::string, std::optional<Material>> materials_;

@@ -257,8 +257,8 @@ std::vector<std::string> GrowthWatch::warnings() const {
                   " s are too long for this motion; the error of a single step was up to " +
                   to_short_text(coarseness_) + " of the largest displacement" + advice);
   if (misses_impacts)
-    all.push_back(prefix + "an impact at the stiffest stop lasts " +
-                  to_short_text(std::numbers::pi / contact_frequency_) + " s or less, so that steps of " +
+    all.push_back(prefix + "an impact can be as short as " +
+                  to_short_text(dynamics::shortest_impact(dynamics_.system())) + " s, so that steps of " +
                   to_short_text(longest_step_) + " s do not resolve its force" + advice);
   return all;
 }

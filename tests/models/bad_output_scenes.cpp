@@ -40,7 +40,7 @@ std::vector<BadScene> bad_output_scenes() {
        {{quantities, "quantities = [\"u\", \"contact_forces\"] #!"}},
        {"output.probe[0].quantities = [\"u\", \"contact_forces\"]: entry 1 (counted from 0): must be one of \"u\", "
         "\"v\", \"a\", \"theta\", \"theta_v\", \"theta_a\", \"contact_force\", \"V\" and ",
-        "more (`butee help` lists them)", "(did you mean \"contact_force\"?)"}},
+        "more (`butee help output` lists the quantities)", "(did you mean \"contact_force\"?)"}},
       {"moment of a lone mass",
        {{"node = \"string:middle\"", "node = \"rotor\""}, {quantities, "quantities = [\"u\", \"M\"] #!"}},
        {"output.probe[0].quantities = [\"u\", \"M\"]: there is no M: rotor belongs to no beam"}},

@@ -211,7 +211,7 @@ TEST(Parameter, AllMistakesOfATableComeInOneGo) {
   const std::vector<Parameter> declared = {config::number("gap", "m", "free play").at_least(0),
                                            config::number("stiffness", "N/m", "the stiffness").above(0)};
   EXPECT_FALSE(read_parameters(document.root, "contact[0]", declared, diagnostics).has_value());
-  ASSERT_EQ(diagnostics.error_count(), 3U);
+  ASSERT_EQ(diagnostics.error_count(), 2U);
   try {
     diagnostics.throw_if_any();
     FAIL() << "no complaint";
@@ -219,7 +219,7 @@ TEST(Parameter, AllMistakesOfATableComeInOneGo) {
     const std::string message = error.what();
     EXPECT_TRUE(holds(message, "scene.toml:1: contact[0].gap = -1: must be >= 0 (m)")) << message;
     EXPECT_TRUE(holds(message, "scene.toml:2: contact[0].stifness = 3.0: unknown key (did you mean \"stiffness\"?)"));
-    EXPECT_TRUE(holds(message, "contact[0].stiffness: missing; give the stiffness")) << message;
+    EXPECT_FALSE(holds(message, "missing")) << "one mistake with two messages: " << message;
   }
 }
 

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
+#include "butee/dynamics/frequencies.hpp"
 #include "support/scene_run.hpp"
 #include "verification/methods.hpp"
 
@@ -96,6 +99,48 @@ TEST_P(RigidMotion, AForceAtTheEndMovesTheCentreOfMassAndTurnsTheBeam) {
   const double way = 0.5 * kForce / kMass * kEnd * kEnd, angle = 0.5 * kForce * 0.5 * kLength / kInertia * kEnd * kEnd;
   EXPECT_NEAR(modes.shift.dot(places) / kMass, way, kMomentum * way);
   EXPECT_NEAR(modes.turn.dot(places) / kInertia, angle, kMomentum * angle);
+}
+
+/// A free beam of 2 m whose nodes have these coordinates, on springs at its ends (N/m) unless they are 0.
+std::string beam_on_springs(const std::vector<double>& coordinates, double stiffness) {
+  std::string beam = free_beam("type = \"distributed\"\nbeam = \"rod\"\nvalue = 500.0\n"), list;
+  for (const double x : coordinates) list += (list.empty() ? "" : ", ") + to_text(x);
+  const std::string given = "0.0, 0.3, 0.8, 1.2, 1.5, 2.0";
+  beam.replace(beam.find(given), given.size(), list);
+  for (const std::size_t node : {std::size_t{0}, coordinates.size() - 1})
+    if (stiffness != 0.0)
+      beam += "\n[[element]]\ntype = \"spring\"\nnode = \"rod:" + std::to_string(node) +
+              "\"\nstiffness = " + to_text(stiffness) + "\n";
+  return beam;
+}
+
+TEST(RigidMotion, OfUnevenMeshesIsFound) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0.0, kLength);
+  for (const int elements : {20, 50, 100, 200}) {
+    std::vector<double> coordinates = {0.0, kLength};
+    for (int i = 1; i < elements; ++i) coordinates.push_back(place(random));
+    std::ranges::sort(coordinates);
+    SceneRun scene(beam_on_springs(coordinates, 0.0));
+    const auto modes = dynamics::lowest_modes(scene.system(), scene.system().size());
+    ASSERT_TRUE(modes);
+    EXPECT_EQ(modes->frequencies[0], 0.0) << elements;
+    EXPECT_EQ(modes->frequencies[1], 0.0) << elements;
+    EXPECT_GT(modes->frequencies[2], 1.0) << elements;
+  }
+}
+
+/// The stiffness of the springs is 1e-13 of that of the elements. On them the rigid beam has omega^2 = 2k/m, and
+/// (k L^2/2)/(m L^2/12) = 6k/m as it turns.
+TEST(RigidMotion, OnSoftSpringsIsNoRigidMotion) {
+  constexpr double kSpring = 0.01;
+  std::vector<double> coordinates;
+  for (int i = 0; i <= 200; ++i) coordinates.push_back(0.01 * i);
+  SceneRun scene(beam_on_springs(coordinates, kSpring));
+  const auto modes = dynamics::lowest_modes(scene.system(), 2);
+  ASSERT_TRUE(modes);
+  EXPECT_NEAR(modes->frequencies[0], std::sqrt(2.0 * kSpring / kMass), 2e-2 * modes->frequencies[0]);
+  EXPECT_NEAR(modes->frequencies[1], std::sqrt(6.0 * kSpring / kMass), 2e-2 * modes->frequencies[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(methods, RigidMotion, testing::ValuesIn(all_methods()),

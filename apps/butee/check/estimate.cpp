@@ -62,17 +62,17 @@ class TrialFolder {
 /// Records steps and time over a trial, and whether a stop closed.
 class Watcher final : public time::Observer {
  public:
-  Watcher(dynamics::Dynamics& dynamics, double begin)
+  Watcher(dynamics::Dynamics& dynamics, const time::RunReport& report, double begin)
       : steps(begin),
         seconds(begin),
         dynamics_(dynamics),
+        report_(report),
         stops_(dynamics.stop_count()),
         has_struck_(stops_.size() == 0) {}
 
   void start(const time::State&) override { started_ = Clock::now(); }
   void step(const time::AcceptedStep& step) override {
-    count_ += 1.0;
-    steps.add(step.to.t, count_);
+    steps.add(step.to.t, static_cast<double>(report_.steps));
     seconds.add(step.to.t, seconds_since(started_));
     if (!has_struck_) look_at_stops(step.to);
   }
@@ -90,10 +90,10 @@ class Watcher final : public time::Observer {
   }
 
   dynamics::Dynamics& dynamics_;
+  const time::RunReport& report_;
   Vector stops_;
   bool has_struck_;
   Clock::time_point started_;
-  double count_ = 0.0;
 };
 
 std::optional<double> rows_of(const model::OutputRequest& output, double span, std::optional<double> steps) {
@@ -112,7 +112,7 @@ void try_out(scene::Scene& session, double reading_seconds, Estimate& result) {
   const record::FolderLock lock = folder.lock();
   folder.prepare(config::write_toml(config::with_files_found_from(session.document, folder.path())));
   const double start = run.assembly().system.initial_time, span = end_time - start;
-  Watcher watcher(run.assembly().dynamics, start);
+  Watcher watcher(run.assembly().dynamics, run.assembly().simulation.report(), start);
   run.add(watcher);
   const auto can_tell = [&] {
     const double part = (run.assembly().simulation.report().t_end - start) / span;

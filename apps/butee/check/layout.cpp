@@ -125,6 +125,12 @@ void add_supports(const model::Model& model, const Placer& placer, Layout& layou
   for (const auto& [node, mark] : marks) layout.supports.push_back(mark);
 }
 
+/// Of a stop that closes in one direction only.
+const char* sides_of(const model::FreePlay& play) {
+  if (play.has_positive() && play.has_negative()) return "";
+  return play.has_positive() ? ", sides positive" : ", sides negative";
+}
+
 /// `laws` are those of [[contact]], of use here if each is one group of stops.
 void add_stops(const model::Model& model, const Placer& placer, const std::vector<std::string>& laws, Layout& layout) {
   const bool names_laws = laws.size() == model.stops.size() && model.obstacles.empty();
@@ -133,7 +139,7 @@ void add_stops(const model::Model& model, const Placer& placer, const std::vecto
     const bool turns = is_rotation(group.dof);
     layout.stop_labels.push_back("gap " + to_short_text(group.play.gap) + (turns ? " rad, " : " m, ") +
                                  to_short_text(group.law->closed_stiffness()) + (turns ? " N m/rad" : " N/m") +
-                                 (names_laws ? ", " + laws[g] : ""));
+                                 (names_laws ? ", " + laws[g] : "") + sides_of(group.play));
     for (std::size_t i = 0; i < group.a.size(); ++i) {
       StopMark mark;
       mark.at = placer.of(group.a[i]);
@@ -161,13 +167,21 @@ void add_obstacles(const model::Model& model, const Placer& placer, Layout& layo
     layout.stop_labels.push_back((group.kind == "stop" ? "" : group.kind + ", ") + "gap " + to_short_text(gap) +
                                  (turns ? " rad, " : " m, ") + to_short_text(group.law->closed_stiffness()) +
                                  (turns ? " N m/rad" : " N/m") +
-                                 (group.damping.kind == model::ImpactDamping::Kind::none ? "" : ", with dissipation"));
+                                 (group.damping.kind == model::ImpactDamping::Kind::none ? "" : ", with dissipation") +
+                                 (group.friction.rule == model::Friction::Rule::none
+                                      ? ""
+                                      : ", friction " + to_short_text(group.friction.coefficient)));
     for (std::size_t i = 0; i < group.a.size(); ++i) {
       mark.at = placer.of(group.a[i]);
       if (!group.b.empty()) mark.other = placer.of(group.b[i]);
       layout.stops.push_back(mark);
     }
   }
+}
+
+bool is_constant(const model::TimeFunction& function) {
+  return !function.harmonic() && function.discontinuities().empty() && function.value(0.0) == function.value(1.0) &&
+         function.value(0.0) == function.value(17.3);
 }
 
 void add_loads(const model::Model& model, const Placer& placer, Layout& layout) {
@@ -184,6 +198,15 @@ void add_loads(const model::Model& model, const Placer& placer, Layout& layout) 
                           is_line       ? "N/m"
                           : mark.moment ? "N m"
                                         : "N");
+    if (single && !mark.moment && load.pattern.front().dof.kind != DofKind::uy)
+      mark.label += std::string(" along ") + name_of(load.pattern.front().dof.kind);
+    if (is_constant(*load.in_time)) {
+      const double value = (is_line ? load.per_length : load.pattern.front().value) * load.in_time->value(0.0);
+      mark.sign = (value > 0.0 ? 1 : 0) - (value < 0.0 ? 1 : 0);
+    }
+    mark.aside = std::any_of(layout.stops.begin(), layout.stops.end(), [&](const StopMark& stop) {
+      return stop.at.row == mark.at.front().row && stop.at.x == mark.at.front().x;
+    });
     layout.loads.push_back(std::move(mark));
   }
 }
@@ -202,9 +225,7 @@ std::string describe(const model::TimeFunction& function, double weight, const c
   if (!instants.empty())
     for (int i = 0; i <= kSamples; ++i)
       largest = std::max(largest, std::abs(function.value(instants.back() * (1.05 * i / kSamples))));
-  const bool constant =
-      instants.empty() && function.value(0.0) == function.value(1.0) && function.value(0.0) == function.value(17.3);
-  if (constant) return to_short_text(weight * function.value(0.0)) + " " + unit;
+  if (is_constant(function)) return to_short_text(weight * function.value(0.0)) + " " + unit;
   return (instants.empty() ? "a force in " : "up to " + to_short_text(std::abs(weight) * largest) + " ") + unit +
          ", changing in time";
 }
@@ -225,8 +246,8 @@ Layout layout_of(const model::Model& model, const Survey& survey, const std::vec
   add_obstacles(model, placer, layout);
   add_loads(model, placer, layout);
   for (const SpringPlace& spring : survey.springs)
-    layout.springs.push_back(
-        {placer.of(spring.a), spring.b >= 0 ? std::optional(placer.of(spring.b)) : std::nullopt, spring.stiffness});
+    layout.springs.push_back({placer.of(spring.a), spring.b >= 0 ? std::optional(placer.of(spring.b)) : std::nullopt,
+                              spring.stiffness, spring.along == DofKind::uz});
   for (const MassPlace& mass : survey.masses) layout.masses.push_back({placer.of(mass.node), mass.mass});
   return layout;
 }

@@ -40,6 +40,8 @@ struct StopMark {
 struct LoadMark {
   std::vector<Place> at;
   bool moment = false;
+  int sign = 0;        ///< of a load that is constant; 0 for others
+  bool aside = false;  ///< beside the node, where a stop is drawn
   std::string label;
 };
 
@@ -47,6 +49,7 @@ struct SpringMark {
   Place a;
   std::optional<Place> b;
   double stiffness = 0.0;
+  bool along_z = false;
 };
 
 struct MassMark {

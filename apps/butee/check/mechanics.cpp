@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include <Eigen/SparseCholesky>
+#include <butee/dynamics/frequencies.hpp>
 #include <butee/linalg/general_factor.hpp>
 
 namespace butee::app::check {
@@ -194,18 +194,14 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
   Mechanics result;
   const std::vector<Stop> stops = stops_of(system);
   if (stops.empty()) return result;
-  Factor mass;
-  const bool has_mass = is_regular(system.mass, mass);
   Compliance compliance(system);
-  result.shortest_contact = result.smallest_gap = std::numeric_limits<double>::infinity();
+  result.shortest_contact = dynamics::shortest_impact(system);
+  result.smallest_gap = std::numeric_limits<double>::infinity();
   const auto stride = std::max<std::size_t>(1, stops.size() / kMostSamples);
   for (std::size_t i = 0; i < stops.size(); i += stride) {
     const Stop& stop = stops[i];
     const Vector unit = stop.unit(system.size());
     const double k = stop.stiffness();
-    if (has_mass)
-      result.shortest_contact =
-          std::min(result.shortest_contact, std::numbers::pi / std::sqrt(k * unit.dot(Vector(mass.solve(unit)))));
     if (compliance.exists()) {
       const double ratio = k * unit.dot(compliance.times(unit));
       result.least_ratio = std::min(result.least_ratio.value_or(ratio), ratio);

@@ -11,7 +11,7 @@ struct Mechanics {
   /// Stiffness of a closed stop over that of the structure at the stop, 1/(s^T K^-1 s): smallest and largest
   /// ratio; empty if the structure has a rigid motion.
   std::optional<double> least_ratio, largest_ratio;
-  double shortest_contact = 0.0;  ///< s, pi sqrt(m/k_c) with m = 1/(s^T M^-1 s); 0 without stops
+  double shortest_contact = 0.0;  ///< s, dynamics::shortest_impact(); 0 without stops
   double smallest_gap = 0.0;      ///< m, among the stops; 0 without stops
   /// The largest static displacement at a stop under the amplitudes of all loads, m; empty without loads or
   /// stops, or if the structure has a rigid motion.

@@ -98,7 +98,8 @@ class Drawing {
 
   void draw(const SpringMark& spring) {
     // Springs to ground are drawn beside the node, because a stop may be drawn below it.
-    const double begin = y(spring.a.row), place = x(spring.a.x) - (spring.b ? 0.0 : 18.0);
+    const double begin = y(spring.a.row), side = spring.along_z ? 1.0 : -1.0;
+    const double place = x(spring.a.x) + (spring.b ? 0.0 : 18.0 * side);
     if (!spring.b) svg_.line(x(spring.a.x), begin, place, begin, kSpring, 1.5);
     const double last = spring.b ? x(spring.b->x) : place, end = spring.b ? y(spring.b->row) : begin + 48.0;
     std::vector<std::pair<double, double>> points = {{place, begin}};
@@ -111,8 +112,9 @@ class Drawing {
     svg_.path(points, kSpring, 1.5);
     if (!spring.b) svg_.line(place - 10.0, end, place + 10.0, end, kSpring, 2.5);
     if (layout_.springs.size() <= 12)
-      svg_.text(place - 10.0, begin + 0.6 * (end - begin), to_short_text(spring.stiffness) + " N/m",
-                spring.b ? "start" : "end", 10.0, kSpring);
+      svg_.text(place + (spring.b ? 10.0 : 10.0 * side), begin + 0.6 * (end - begin),
+                to_short_text(spring.stiffness) + " N/m" + (spring.along_z ? " (z)" : ""),
+                spring.b || spring.along_z ? "start" : "end", 10.0, kSpring);
   }
 
   void draw(const MassMark& mass) {
@@ -124,21 +126,23 @@ class Drawing {
     const std::size_t stride = load.at.size() / 40 + 1;
     const double length = load.at.size() == 1 ? 54.0 : 16.0;
     for (std::size_t i = 0; i < load.at.size(); i += stride) {
-      const double place = x(load.at[i].x), tip = y(load.at[i].row) - 5.0;
+      const double place = x(load.at[i].x) + (load.aside ? 12.0 : 0.0), tip = y(load.at[i].row) - 5.0;
       if (load.moment) {
         svg_.path({{place - 10.0, tip}, {place - 7.0, tip - 9.0}, {place + 7.0, tip - 9.0}, {place + 10.0, tip}}, kLoad,
                   2.0);
         continue;
       }
-      // Arrowheads at both ends, because most loads change sign.
+      // Arrowheads at both ends of a load that changes its sign.
       svg_.line(place, tip - length + 4.0, place, tip - 4.0, kLoad, 2.0);
-      svg_.polygon({{place, tip}, {place - 4.5, tip - 8.0}, {place + 4.5, tip - 8.0}}, kLoad);
-      svg_.polygon({{place, tip - length}, {place - 4.5, tip - length + 8.0}, {place + 4.5, tip - length + 8.0}},
-                   kLoad);
+      if (load.sign <= 0) svg_.polygon({{place, tip}, {place - 4.5, tip - 8.0}, {place + 4.5, tip - 8.0}}, kLoad);
+      if (load.sign >= 0)
+        svg_.polygon({{place, tip - length}, {place - 4.5, tip - length + 8.0}, {place + 4.5, tip - length + 8.0}},
+                     kLoad);
     }
     const Place& first = load.at[load.at.size() / 2];
     const int before = labels_[first.row]++;
-    svg_.text(x(first.x) + 8.0, y(first.row) - 58.0 - 13.0 * (before % 3), load.label, "start", 12.0, kLoad);
+    svg_.text(x(first.x) + (load.aside ? 20.0 : 8.0), y(first.row) - 58.0 - 13.0 * (before % 3), load.label, "start",
+              12.0, kLoad);
   }
 
   void draw_legend() {

@@ -125,7 +125,8 @@ class TextDrawing {
       const std::string words =
           to_short_text(body.end - body.begin) + " m, " + std::to_string(body.nodes.size() - 1) + " elements";
       const int middle = (column(body.begin) + column(body.end) - static_cast<int>(words.size())) / 2;
-      length.write(std::max(middle, name_width_), words);
+      length.write(std::clamp(middle, name_width_, std::max(name_width_, width_ - static_cast<int>(words.size()))),
+                   words);
     }
     for (const MassMark& mass : layout_.masses)
       if (mass.at.row == row) beam.put(column(mass.at.x), glyphs_.mass);

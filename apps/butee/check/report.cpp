@@ -155,8 +155,10 @@ void print_cost(const Estimate& cost, bool trust) {
                 cost.whole ? "from a complete trial run" : "from a short trial");
   else if (has_trial)
     std::printf(
-        "estimate   none: a trial of %.2g s covered %.2g %% of the time; this does not suffice for an estimate%s\n",
-        cost.trial_seconds, 100.0 * cost.part, steps.empty() ? "" : ("; " + steps).c_str());
+        "estimate   none: a trial of %.2g s covered %.2g %% of the time, and its pace is no guide to the rest%s%s\n",
+        cost.trial_seconds, 100.0 * cost.part,
+        cost.part > 0.0 ? formatted("; the same pace would take %.2g s", cost.trial_seconds / cost.part).c_str() : "",
+        steps.empty() ? "" : ("; " + steps).c_str());
   if (cost.rows) std::printf("results    %.4g rows, about %s\n", *cost.rows, size_of(*cost.bytes).c_str());
 }
 

@@ -23,10 +23,13 @@ class SurveySink final : public model::MatrixSink {
     if (dofs.size() == 2 && matrices.stiffness(0, 0) == 0.0 && matrices.stiffness(0, 1) != 0.0) are_entries_ = true;
     if (dofs.size() == 2 && mass != 0.0) couples_masses_ = true;
     if (dofs.size() == 4) return add_stretch(dofs, matrices, mass);
-    if (dofs.front().kind != DofKind::u) return;
-    if (dofs.size() == 1 && mass > 0.0) masses_.push_back({dofs[0].node, mass});
-    if (const double k = matrices.stiffness(0, 0); dofs.size() <= 2 && k != 0.0)
-      springs_.push_back({dofs[0].node, dofs.size() == 2 ? dofs[1].node : -1, k});
+    if (dofs.size() == 1 && mass > 0.0 && dofs[0].kind == DofKind::u) masses_.push_back({dofs[0].node, mass});
+    // Both displacements of a bearing are those of one node.
+    const bool is_bearing = dofs.size() == 2 && nodes_.canonical(dofs[0].node) == nodes_.canonical(dofs[1].node);
+    for (std::size_t i = 0; i < (is_bearing ? dofs.size() : 1U); ++i)
+      if (const double k = matrices.stiffness(static_cast<Index>(i), static_cast<Index>(i));
+          dofs.size() <= 2 && k != 0.0 && (dofs[i].kind == DofKind::uy || dofs[i].kind == DofKind::uz))
+        springs_.push_back({dofs[i].node, dofs.size() == 2 && !is_bearing ? dofs[1].node : -1, k, dofs[i].kind});
   }
 
   /// Ends an element. In matrices given entry by entry, a diagonal entry is not a spring to ground; if masses

@@ -15,10 +15,11 @@ struct Stretch {
   double mass_per_length;  ///< kg/m
 };
 
-/// A spring on u, to ground if b < 0.
+/// A spring on uy or uz, to ground if b < 0.
 struct SpringPlace {
   model::NodeId a, b;
   double stiffness;  ///< N/m
+  DofKind along = DofKind::uy;
 };
 
 /// A lumped mass.

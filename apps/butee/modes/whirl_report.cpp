@@ -61,7 +61,7 @@ WhirlAnalysis whirl_at(const dynamics::Whirl& whirl, const std::string& title, d
 
 Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double from, double to, Index steps,
                   double order, Index count) {
-  Campbell diagram{title, order, {}, {}, {}, {}, false, 0};
+  Campbell diagram{title, order, {}, {}, {}, {}, {}, false, 0};
   // Damping that turns with the shaft lets modes grow whose frequency is below the speed.
   const Index examined =
       whirl.is_dense() ? count
@@ -70,6 +70,7 @@ Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double
   std::vector<dynamics::ModesAtSpeed> grid;
   for (Index i = 0; i <= steps; ++i) {
     diagram.speeds.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
+    diagram.senses.push_back(sense_at(whirl, diagram.speeds.back()));
     grid.push_back(whirl.modes_at(diagram.speeds.back(), examined));
   }
   diagram.critical = whirl.critical_speeds(from, to, steps, order, examined);
@@ -109,12 +110,14 @@ void print(const Campbell& diagram) {
     std::printf("  %14s rad/s  %16s rev/min  %s\n", formatted("%.10g", critical.speed).c_str(),
                 rpm(critical.speed).c_str(), sense_of(critical.direction, critical.motion, critical.speed));
   std::printf("\n  stability without contact%s\n\n", among.c_str());
-  if (diagram.grows_at_first) std::printf("  unstable at %s rad/s\n", to_short_text(diagram.speeds.front()).c_str());
+  if (diagram.grows_at_first && !diagram.borders.empty())
+    std::printf("  unstable at %s rad/s\n", to_short_text(diagram.speeds.front()).c_str());
   for (const dynamics::StabilityBorder& border : diagram.borders)
     std::printf("  %14s rad/s  %16s rev/min  a mode of %s rad/s (%s) %s\n", formatted("%.8g", border.speed).c_str(),
                 rpm(border.speed).c_str(), to_short_text(border.mode.frequency()).c_str(),
                 sense_of(border.mode, border.speed), border.begins ? "begins to grow" : "ceases to grow");
-  if (!diagram.grows_at_first && diagram.borders.empty()) std::printf("  stable at all these speeds\n");
+  if (diagram.borders.empty())
+    std::printf("  %s at all these speeds\n", diagram.grows_at_first ? "unstable" : "stable");
 }
 
 Json to_json(const WhirlAnalysis& analysis) {
@@ -146,7 +149,7 @@ Json to_json(const Campbell& diagram) {
     Json row;
     row["speed"] = diagram.speeds[i];
     row["modes"] = Json::array();
-    for (const dynamics::WhirlMode& mode : diagram.modes[i]) row["modes"].push_back(to_json(mode, diagram.speeds[i]));
+    for (const dynamics::WhirlMode& mode : diagram.modes[i]) row["modes"].push_back(to_json(mode, diagram.senses[i]));
     json["speeds"].push_back(std::move(row));
   }
   return json;
@@ -159,7 +162,7 @@ std::string campbell_csv(const Campbell& diagram) {
       const dynamics::WhirlMode& mode = diagram.modes[i][k];
       text += formatted("%.17g,%zu,%.17g,%.17g,", diagram.speeds[i], k + 1, mode.frequency(), mode.damping_ratio()) +
               (mode.frequency() > 0.0 ? formatted("%.17g", mode.logarithmic_decrement()) : "") +
-              formatted(",%.17g,%s\n", mode.direction, sense_of(mode, diagram.speeds[i]));
+              formatted(",%.17g,%s\n", mode.direction, sense_of(mode, diagram.senses[i]));
     }
   return text;
 }
@@ -183,7 +186,7 @@ bool draw(const Campbell& diagram, const record::ResultFolder& folder) {
     std::string points;
     for (std::size_t i = 0; i < diagram.speeds.size(); ++i)
       for (const dynamics::WhirlMode& mode : diagram.modes[i])
-        if (std::string_view(sense_of(mode, diagram.speeds[i])) == group.name)
+        if (std::string_view(sense_of(mode, diagram.senses[i])) == group.name)
           points += formatted("%.9g %.9g\n", diagram.speeds[i], mode.frequency());
     if (!points.empty()) add(points, group.name, group.point);
   }

@@ -24,6 +24,7 @@ struct Campbell {
   std::string title;
   double order = 1.0;
   std::vector<double> speeds;  ///< rad/s
+  std::vector<double> senses;  ///< the sign of forward whirl at each speed; 0 where it is undefined
   std::vector<std::vector<dynamics::WhirlMode>> modes;
   std::vector<dynamics::CriticalSpeed> critical;
   std::vector<dynamics::StabilityBorder> borders;

@@ -86,6 +86,7 @@ class Follower final : public time::Observer {
     to_.histories.values.resize(row_.size());
     to_.histories.times = compared_times(session);
     for (const Followed& one : followed) to_.histories.rotations.push_back(is_rotation(one.kind));
+    for (const model::NodalDof& dof : dynamics.system().dofs.free()) is_rotation_.push_back(is_rotation(dof.kind));
     if (!with_states) return;
     to_.state_times = state_times(session, dynamics.size());
     to_.x.resize(dynamics.size(), static_cast<Index>(to_.state_times.size()));
@@ -97,6 +98,7 @@ class Follower final : public time::Observer {
   void start(const time::State& state) override {
     probes_.evaluate(state, row_);
     take_row();
+    raise_scales(state.x);
     if (to_.state_times.empty()) return;
     to_.x.col(0) = state.x;
     to_.v.col(0) = state.v;
@@ -106,6 +108,7 @@ class Follower final : public time::Observer {
   void step(const time::AcceptedStep& step) override {
     rows_.visit(step, [](double) {});
     const std::vector<double>& times = to_.histories.times;
+    if (next_row_ < times.size() && times[next_row_] <= step.to.t) raise_scales(step.to.x);
     while (next_row_ < times.size() && times[next_row_] <= step.to.t) {
       probes_.evaluate(step, times[next_row_], row_);
       take_row();
@@ -128,12 +131,20 @@ class Follower final : public time::Observer {
     for (std::size_t i = 0; i < row_.size(); ++i) to_.histories.values[i].push_back(row_[i]);
     ++next_row_;
   }
+  void raise_scales(ConstVectorRef x) {
+    std::array<double, 2>& largest = to_.histories.largest_of_kind;
+    for (std::size_t i = 0; i < is_rotation_.size(); ++i) {
+      double& of_kind = largest[is_rotation_[i] ? 1 : 0];
+      of_kind = std::max(of_kind, std::abs(x[static_cast<Index>(i)]));
+    }
+  }
 
   record::Probes probes_;
   FollowedRun& to_;
   std::vector<double> row_;
   record::OutputTimes rows_;
   std::vector<Index> dofs_;
+  std::vector<bool> is_rotation_;  ///< of each DOF
   std::size_t next_row_ = 0, next_state_ = 0;
 };
 

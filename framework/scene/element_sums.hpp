@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "butee/model/element.hpp"
+
+namespace butee::scene {
+
+/// What the elements of a scene contribute to the diagonals of its matrices, DOF by DOF. Private to the framework.
+class ElementSums final : public model::MatrixSink {
+ public:
+  struct Contribution {
+    double value = 0.0;
+    std::size_t element = 0;
+  };
+  /// Of one free DOF: sums in kg, N/m and N s/m, or kg m2, N m/rad and N m s/rad.
+  struct Sum {
+    double mass = 0.0, stiffness = 0.0, damping = 0.0;
+    Contribution stiffest, softest, most_damped;  ///< the softest of those above 0 that are not rounding of their part
+  };
+
+  /// `dofs` must outlive this object and be numbered.
+  explicit ElementSums(const model::DofTable& dofs);
+
+  /// The contributions that follow are those of this element.
+  void begin_element(std::size_t element) { element_ = element; }
+  void add(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices) override;
+
+  /// Of each free DOF, in the order of DofTable::free().
+  const std::vector<Sum>& sums() const { return sums_; }
+  /// Elements with an entry that is not finite, ascending.
+  const std::vector<std::size_t>& not_finite() const { return not_finite_; }
+
+ private:
+  const model::DofTable& dofs_;
+  std::vector<Sum> sums_;
+  std::vector<std::size_t> not_finite_;
+  std::size_t element_ = 0;
+};
+
+}  // namespace butee::scene
