@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace butee::elements {
 
@@ -58,7 +60,14 @@ Beam::Beam(model::Material material, model::Section section, std::vector<NodeId>
       section_(section),
       nodes_(std::move(nodes)),
       coordinates_(std::move(coordinates)),
-      options_(std::move(options)) {}
+      options_(std::move(options)) {
+  const double first = coordinates_.front(), last = coordinates_.back();
+  const double mean = (last - first) / static_cast<double>(coordinates_.size() - 1);
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(first), std::abs(last));
+  const auto uneven = std::adjacent_find(coordinates_.begin(), coordinates_.end(),
+                                         [&](double a, double b) { return std::abs(b - a - mean) > rounding; });
+  if (uneven == coordinates_.end()) even_length_ = mean;
+}
 
 bool Beam::is_along_axes() const {
   return options_.axes.isIdentity(0.0);
@@ -199,6 +208,7 @@ void Beam::add_parts(model::MatrixSink& sink, const std::vector<std::vector<DofK
 }
 
 double Beam::length_of(Index part) const {
+  if (even_length_ > 0.0) return even_length_;
   const auto e = static_cast<std::size_t>(part);
   return coordinates_.at(e + 1) - coordinates_.at(e);
 }

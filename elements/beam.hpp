@@ -73,6 +73,9 @@ class Beam final : public model::Element {
   model::Section section_;
   std::vector<model::NodeId> nodes_;
   std::vector<double> coordinates_;
+  /// The length of each part if they are equal, so that the sums of equal stiffnesses have no rounding: in a mesh of n
+  /// elements it would count n^4 times. 0 if they are not.
+  double even_length_ = 0.0;
   BeamOptions options_;
   std::vector<double> preloads_;  ///< of the parts; empty: the preload of the options
 };

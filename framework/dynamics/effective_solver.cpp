@@ -43,18 +43,21 @@ EffectiveSolver::EffectiveSolver(const model::System& system, const ElasticStops
       contacts_(contacts),
       base_(system.mass) {}
 
-void EffectiveSolver::prepare_factorized() {
+void EffectiveSolver::prepare_matrix() {
   effective_ = base_;
+  for (Index i = 0; i < contact_.size(); ++i) {
+    const Index a = contact_.dof_a(i), b = contact_.dof_b(i);
+    places_.push_back({place_of(base_, a, a), place_of(base_, b, b), place_of(base_, a, b), place_of(base_, b, a)});
+  }
+}
+
+void EffectiveSolver::prepare_factor() {
   if (modal_ != nullptr)
     modal_factor_.emplace(base_, counters_, &modal_->matrix());
   else if (!system_.is_symmetric)
     general_factor_.emplace(base_, counters_, nullptr, false);
   else
     factor_.emplace(base_, counters_);
-  for (Index i = 0; i < contact_.size(); ++i) {
-    const Index a = contact_.dof_a(i), b = contact_.dof_b(i);
-    places_.push_back({place_of(base_, a, a), place_of(base_, b, b), place_of(base_, a, b), place_of(base_, b, a)});
-  }
 }
 
 void EffectiveSolver::assemble_base(double damping, double stiffness) {
@@ -121,8 +124,15 @@ bool EffectiveSolver::solve_scalar(ConstVectorRef kappa, VectorRef b) {
   return true;
 }
 
-bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
-  if (effective_.size() == 0) prepare_factorized();
+const SparseMatrix& EffectiveSolver::matrix(ConstVectorRef kappa) {
+  require(stiffness_factor_ >= 0.0, "set_factors() comes before matrix()");
+  assemble_base(damping_factor_, stiffness_factor_);
+  add_stops(kappa);
+  return effective_;
+}
+
+void EffectiveSolver::add_stops(ConstVectorRef kappa) {
+  if (effective_.size() == 0) prepare_matrix();
   effective_.coeffs() = base_.coeffs();
   double* values = effective_.valuePtr();
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -133,6 +143,11 @@ bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
     if (ab >= 0) values[ab] -= k;
     if (ba >= 0) values[ba] -= k;
   }
+}
+
+bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
+  add_stops(kappa);
+  if (!factor_ && !general_factor_ && !modal_factor_) prepare_factor();
   if (modal_ != nullptr) return solve_modal(b);
   if (general_factor_) {
     if (!general_factor_->factorize(effective_)) return false;

@@ -44,6 +44,12 @@ class BUTEE_EXPORT EffectiveSolver {
   /// Sets the feedback factors; does work only if they have changed.
   void set_factors(double damping, double stiffness);
 
+  /// The matrix above without modal damping, to be factorized by the caller together with further terms. Valid until
+  /// the next call of a function that is not const.
+  const SparseMatrix& matrix(ConstVectorRef kappa);
+  bool has_modal_damping() const { return modal_ != nullptr; }
+  linalg::Counters& counters() const { return counters_; }
+
   /// Solves in place: b := y. `kappa` has an entry per stop. False if the matrix is not positive
   /// definite.
   [[nodiscard]] bool solve(ConstVectorRef kappa, VectorRef b);
@@ -62,10 +68,13 @@ class BUTEE_EXPORT EffectiveSolver {
   };
 
   void assemble_base(double damping, double stiffness);
+  /// effective_ := base_ with the stops
+  void add_stops(ConstVectorRef kappa);
   bool solve_factorized(ConstVectorRef kappa, VectorRef b);
   bool solve_modal(VectorRef b);
   bool solve_scalar(ConstVectorRef kappa, VectorRef b);
-  void prepare_factorized();
+  void prepare_matrix();
+  void prepare_factor();
 
   const model::System& system_;
   const ElasticStops& contact_;

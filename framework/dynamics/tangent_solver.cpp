@@ -29,6 +29,8 @@ bool TangentSolver::set(double velocity_factor, double displacement_factor, Cons
     stiffness_.push_back(tangent.stiffness);
     blocks_.push_back(velocity_factor * tangent.damping + displacement_factor * tangent.stiffness);
   }
+  is_whole_ = contacts_.size() > kMostLocal && !effective_.has_modal_damping();
+  if (is_whole_) return factorize_whole(kappa);
   if (contacts_.empty()) return true;
   const auto count = static_cast<Index>(contacts_.size());
   width_ = 2;
@@ -52,7 +54,37 @@ bool TangentSolver::set(double velocity_factor, double displacement_factor, Cons
   return std::isfinite(small.sum());
 }
 
+bool TangentSolver::factorize_whole(ConstVectorRef kappa) {
+  const SparseMatrix& matrix = effective_.matrix(kappa);
+  if (!whole_solver_) {
+    std::vector<Eigen::Triplet<double>> places;
+    for (Index column = 0; column < matrix.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
+        places.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), 0.0);
+    for (Index i = 0; i < obstacles_->size(); ++i)
+      obstacles_->visit(i, Obstacles::Block::Ones(), [&](Index row, Index column, double) {
+        places.emplace_back(static_cast<int>(row), static_cast<int>(column), 0.0);
+        places.emplace_back(static_cast<int>(column), static_cast<int>(row), 0.0);
+      });
+    whole_.resize(matrix.rows(), matrix.cols());
+    whole_.setFromTriplets(places.begin(), places.end());
+    whole_solver_.emplace(whole_, effective_.counters(), nullptr, false);
+  }
+  whole_.coeffs().setZero();
+  for (Index column = 0; column < matrix.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
+      whole_.coeffRef(entry.row(), column) = entry.value();
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    obstacles_->visit(contacts_[i], blocks_[i],
+                      [&](Index row, Index column, double value) { whole_.coeffRef(row, column) += value; });
+  return whole_solver_->factorize(whole_);
+}
+
 bool TangentSolver::solve(VectorRef b) {
+  if (is_whole_) {
+    whole_solver_->solve(b);
+    return true;
+  }
   if (!effective_.solve(kappa_, b)) return false;
   if (contacts_.empty()) return true;
   for (Index i = 0; i < static_cast<Index>(contacts_.size()); ++i) {

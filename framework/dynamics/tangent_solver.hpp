@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/LU>
 
 #include "butee/dynamics/effective_solver.hpp"
@@ -17,7 +19,8 @@ BUTEE_EXPORT bool has_infinite_slope(const Obstacles& obstacles);
 ///     G)^-1 B S y, A y = b,    Z = A^-1 S^T,    G = S Z
 ///
 /// where A is the matrix of an EffectiveSolver and the sum is over the obstacles that exert a
-/// force. set() takes two solves for each. B need not be symmetric. Checked against a full
+/// force. set() takes two solves for each; if more than kMostLocal exert one, it factorizes the whole matrix instead
+/// (not with modal damping, whose matrix is not sparse). B need not be symmetric. Checked against a full
 /// factorization in tests/unit/obstacles_test.cpp.
 class BUTEE_EXPORT TangentSolver {
  public:
@@ -35,6 +38,10 @@ class BUTEE_EXPORT TangentSolver {
   void add_stiffness(const ElasticStops& stops, ConstVectorRef y, VectorRef work, VectorRef force) const;
 
  private:
+  /// The largest number of contacts that are solved by two solves each (chosen).
+  static constexpr std::size_t kMostLocal = 32;
+
+  bool factorize_whole(ConstVectorRef kappa);
   /// B_i S_i y
   Obstacles::Coordinates along(Index i, ConstVectorRef y) const;
 
@@ -47,6 +54,9 @@ class BUTEE_EXPORT TangentSolver {
   Eigen::MatrixXd motion_;                            ///< Z
   Eigen::PartialPivLU<Eigen::MatrixXd> small_;
   Vector right_;
+  SparseMatrix whole_;  ///< A + sum_i S_i^T B_i S_i, with the places of all contacts
+  std::optional<linalg::LinearSolver> whole_solver_;
+  bool is_whole_ = false;  ///< whole_solver_ holds the matrix of set()
 };
 
 }  // namespace butee::dynamics

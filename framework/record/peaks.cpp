@@ -36,7 +36,7 @@ Bounds rate_bounds(const model::FreePlay& play, double stiffness, const Bounds& 
 }
 
 double largest_of(const Bounds& bounds) {
-  return std::max(-bounds.first, bounds.second);
+  return std::max({0.0, -bounds.first, bounds.second});
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ Checkpointer::Checkpointer(const scene::Scene& scene, scene::Assembly& assembly,
 void Checkpointer::go_on_from(const record::Checkpoint& checkpoint) {
   before_ = checkpoint.counters;
   next_.setup_seconds += checkpoint.setup_seconds;
+  written_at_ = checkpoint.snapshot.report.steps;
 }
 
 linalg::Counters Checkpointer::counters() const {
@@ -52,7 +53,7 @@ void Checkpointer::write() {
   const auto begin = Clock::now();
   const auto file_seconds = [this] { return history_.seconds() + (other_ != nullptr ? other_->seconds() : 0.0); };
   const double file_seconds_before = file_seconds();
-  since_ = 0;
+  written_at_ = assembly_.simulation.report().steps;
   history_.sync();
   if (other_ != nullptr) other_->sync();
   next_.history = history_.position();

@@ -28,10 +28,11 @@ class BUTEE_EXPORT Checkpointer final : public time::Observer {
   void set_setup_seconds(double seconds) { next_.setup_seconds = seconds; }
   linalg::Counters counters() const;
 
-  void step(const time::AcceptedStep&) override { ++since_; }
+  void step(const time::AcceptedStep&) override {}
   double file_seconds() const override { return seconds_; }
 
-  bool is_due() const { return since_ >= every_; }
+  /// Some methods take many steps between two states that a run can continue from.
+  bool is_due() const { return assembly_.simulation.report().steps - written_at_ >= every_; }
   /// To be called between two steps.
   void write();
   /// To be called after the end of a run that will not be continued.
@@ -42,7 +43,7 @@ class BUTEE_EXPORT Checkpointer final : public time::Observer {
   record::CheckpointFolder folder_;
   record::CsvWriter& history_;
   record::CsvWriter* other_ = nullptr;
-  std::int64_t every_, since_ = 0;
+  std::int64_t every_, written_at_ = 0;  ///< steps
   record::Checkpoint next_;
   linalg::Counters before_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

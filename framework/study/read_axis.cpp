@@ -39,6 +39,7 @@ class AxisReader {
     if (values != nullptr || p.has("file"))
       for (const char* key : {"count", "spacing"})
         if (p.given(key)) p.complain(diagnostics_, key, "belongs to from and to, which are not given");
+    if (values != nullptr) axis.place = describe(diagnostics_.document(), values->at) + ": " + path;
     if (values != nullptr) return read_values(*values, path, std::move(axis));
     if (p.has("file")) return read_file(p, std::move(axis));
     return read_range(p, kind, std::move(axis));

@@ -10,6 +10,7 @@
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
+#include "butee/scene/read_scene.hpp"
 #include "butee/study/points.hpp"
 #include "butee/study/read_axis.hpp"
 #include "butee/study/study.hpp"
@@ -310,6 +311,30 @@ double period_of(const model::Model& model) {
 
 namespace {
 
+bool is_number(const Value& value) {
+  return config::as_number(value).has_value();
+}
+
+/// Values of different kinds, or not finite, may be mistakes for the scene: those are errors of the study, before a run
+/// fails for them.
+void check_values(const Study& study) {
+  for (std::size_t i = 0; i < study.plan.axes().size(); ++i) {
+    const std::vector<Value>& values = study.plan.axes()[i].values;
+    const bool are_mixed = std::any_of(values.begin(), values.end(), [&](const Value& value) {
+      return value.data.index() != values.front().data.index() && !(is_number(value) && is_number(values.front()));
+    });
+    for (const Value& value : values) {
+      if (!are_mixed && std::isfinite(config::as_number(value).value_or(0.0))) continue;
+      std::vector<Value> point = study.plan.values(0);
+      point[i] = value;
+      const config::Document scene = scene_at(study, point);
+      Diagnostics diagnostics(scene);
+      (void)scene::read_draft(scene, study.catalogue, diagnostics);
+      diagnostics.throw_if_any();
+    }
+  }
+}
+
 /// If no scene is given, reads the file named in the study.
 Study study_of(const config::Document& document, const config::Document* known_scene, const StudyOptions& options) {
   Diagnostics diagnostics(document);
@@ -365,6 +390,7 @@ Study study_of(const config::Document& document, const config::Document* known_s
                                           *p, options, axes, diagnostics);
   if (options.points.empty() && !axes.empty()) check_keys(document, scene, axes, p->has("periods"), diagnostics);
   Study study{document, std::move(scene), plugin::Catalogue::with_plugins(options.plugins), make_plan()};
+  check_values(study);
   study.settle = p->integer("settle");
   if (p->has("periods")) study.periods = p->integer("periods");
   if (p->has("period")) study.period = p->number("period");

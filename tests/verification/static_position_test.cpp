@@ -1,5 +1,6 @@
 // Static positions where the stiffness is singular, or singular up to rounding, until contacts hold the structure; and
 // structures that nothing holds.
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -50,6 +51,19 @@ TEST(StaticPosition, IsFoundWhereAStopHoldsAHingedBeam) {
                   1e-10)
           << elements << " " << stiffness;
     }
+}
+
+/// 5 q L^4/(384 E I) in the middle of a beam on two supports, exact in cubic elements at their nodes. The terms of K x
+/// cancel to n^-4 of their size.
+TEST(StaticPosition, OfFineMeshesIsExact) {
+  constexpr double kArea = std::numbers::pi * 0.0125 * 0.0125, kBending = 2e11 * kArea * 0.0125 * 0.0125 / 4.0;
+  for (const int elements : {10, 1000, 3000, 6000}) {
+    SceneRun run(beam("", elements,
+                      "acceleration = [0.0, -9.81, 0.0]\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = "
+                      "[\"u\"]\n"));
+    const double sag = -5.0 * 7800.0 * kArea * kGravity * std::pow(0.6, 4) / (384.0 * kBending);
+    EXPECT_NEAR(run.system().initial_displacement[run.dof("b:middle")], sag, -1e-7 * sag) << elements;
+  }
 }
 
 /// Nothing loads the rotation of the shaft about its axis, and nothing holds it.

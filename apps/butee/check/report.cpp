@@ -225,6 +225,7 @@ Json to_json(const scene::Scene& session, const model::System& system, const Fac
     json["critical_step"] = {{"runge_kutta_4", facts.of_runge_kutta->closed},
                              {"central_differences", facts.of_central_differences->closed}};
   json["method"] = session.integrator.name;
+  json["chosen"] = facts.cost.choice.empty() ? Json() : Json(facts.cost.choice);
   json["time_step"] = session.integrator.options.time_step;
   json["end_time"] = session.integrator.options.end_time;
   json["contact"] = json_of(facts.mechanics);

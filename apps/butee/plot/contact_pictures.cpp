@@ -91,6 +91,14 @@ double least_distance(const Result& result) {
   return std::isfinite(least) ? least : 1.0;
 }
 
+/// Half of the width of a mark in the picture, m: narrow beside a structure with few contacts, and apart from others.
+double half_width(const Result& result) {
+  double farthest = 0.0;
+  for (const ContactPlace& place : result.contact_places) farthest = std::max(farthest, std::abs(place.x));
+  const double apart = 0.35 * least_distance(result);
+  return farthest > 0.0 ? std::min(apart, 0.05 * farthest) : apart;
+}
+
 struct Closing {
   double begin, end, x, force;
 };
@@ -125,7 +133,7 @@ std::vector<Picture> contact_map(const Result& result, Window window, bool sever
   picture.name = several ? "contact-map-" + result.label : "contact-map";
   picture.data = "# middle of the time, place, begin, end, lower, upper edge, largest force\n$closings << EOD\n";
   const double begin = std::max(window.from, 0.0), end = std::min(window.to, last);
-  const double half = 0.35 * least_distance(result), narrow = kNarrowest * (end - begin);
+  const double half = half_width(result), narrow = kNarrowest * (end - begin);
   for (const Closing& one : closings) {
     const double until = std::max(one.end, one.begin + narrow);
     for (const double value : {0.5 * (one.begin + until) * time.factor, one.x, one.begin * time.factor,
