@@ -35,7 +35,8 @@ void print(const record::Summary& summary, const scene::Scene& session, const st
   const auto& report = summary.report;
   if (!session.model.title.empty()) std::printf("%s\n", printable(session.model.title).c_str());
   if (!summary.choice.empty()) std::printf("  chosen: %s\n", summary.choice.c_str());
-  std::printf("  %s, %td free DOFs, %td stops\n", summary.integrator.c_str(), summary.dofs, summary.contacts);
+  std::printf("  %s, %td free DOF%s, %td stop%s\n", summary.integrator.c_str(), summary.dofs,
+              summary.dofs == 1 ? "" : "s", summary.contacts, summary.contacts == 1 ? "" : "s");
   std::printf("  %s at t = %s s: %lld steps, %lld rejected, %lld Newton iterations\n",
               report.completed ? "completed" : "FAILED", to_short_text(report.t_end).c_str(),
               static_cast<long long>(report.steps), static_cast<long long>(report.rejected),

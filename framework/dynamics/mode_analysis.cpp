@@ -78,9 +78,13 @@ std::vector<ClosedStop> closed_stops(const model::Model& model, const std::vecto
     bool found = false;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (every || touches(all[i].a) || touches(all[i].b)) is_chosen[i] = found = true;
-    if (!found)
-      throw InputError("--closed " + selector +
-                       (every ? ": the scene has no stops in one direction" : ": no stop in one direction acts there"));
+    if (found) continue;
+    if (all.empty()) throw InputError("--closed " + selector + ": the scene has no stops in one direction");
+    constexpr std::size_t kShown = 8;
+    std::vector<std::string> places;
+    for (std::size_t i = 0; i < std::min(all.size(), kShown); ++i) places.push_back(model.nodes.name(all[i].a));
+    throw InputError("--closed " + selector + ": no stop in one direction acts there; they act at " + join(places) +
+                     (all.size() > kShown ? " and " + std::to_string(all.size() - kShown) + " more" : ""));
   }
   std::vector<ClosedStop> stops;
   for (std::size_t i = 0; i < all.size(); ++i)

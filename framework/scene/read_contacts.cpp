@@ -315,8 +315,11 @@ std::optional<std::vector<double>> SceneReader::read_gaps(const Parameters& p, s
                "holds " + std::to_string(gaps.size()) + " gaps for " + std::to_string(count) + " contacts");
     return std::nullopt;
   }
-  if (std::any_of(gaps.begin(), gaps.end(), [](double gap) { return !(gap >= 0.0); })) {
-    p.complain(diagnostics_, key, "must hold numbers >= 0");
+  const auto wrong = std::find_if(gaps.begin(), gaps.end(), [](double gap) { return !(gap >= 0.0); });
+  if (wrong != gaps.end()) {
+    p.complain(diagnostics_, key,
+               "must hold numbers >= 0; entry " + std::to_string(wrong - gaps.begin()) + " (counted from 0) is " +
+                   to_short_text(*wrong));
     return std::nullopt;
   }
   return gaps;

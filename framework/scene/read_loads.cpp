@@ -60,7 +60,8 @@ void SceneReader::read_turning_unbalance(const Value& entry, const std::string& 
         "shaft that carries the unbalance");
   if (const Value* dof = entry.table()->find("dof"))
     return diagnostics_.error(path + ".dof", *dof,
-                              "belongs to an unbalance with speed; one that turns with [rotation] acts along y and z");
+                              "belongs to an unbalance with speed; one that turns with [rotation] acts along y and z; "
+                              "remove dof");
   if (!node || model_.rotation == nullptr) return;
   bool acts = false;
   for (const auto& [kind, along] :

@@ -11,7 +11,7 @@
 namespace butee::app::check {
 namespace {
 
-constexpr double kWidth = 960.0, kMargin = 70.0, kRowHeight = 170.0, kTop = 60.0;
+constexpr double kWidth = 960.0, kMargin = 126.0, kRowHeight = 170.0, kTop = 60.0;
 constexpr double kLargestGap = 34.0;  ///< px, distance of the widest gap from its node
 constexpr std::size_t kMostMarks = 400;
 constexpr const char* kBeam = "#1f3b57";

@@ -45,27 +45,27 @@ std::string list_of(const std::vector<std::pair<double, double>>& points) {
 
 Svg::Svg(double width, double height)
     : width_(width),
-      text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"" +
-            attribute("width", width) + attribute("height", height) +
-            attribute("viewBox", "0 0 " + number(width) + " " + number(height)) +
-            " font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n") {}
+      shapes_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"" +
+              attribute("width", width) + attribute("height", height) +
+              attribute("viewBox", "0 0 " + number(width) + " " + number(height)) +
+              " font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n") {}
 
 void Svg::line(double x1, double y1, double x2, double y2, const std::string& colour, double width) {
-  text_ += "<line" + attribute("x1", x1) + attribute("y1", y1) + attribute("x2", x2) + attribute("y2", y2) +
-           attribute("stroke", colour) + attribute("stroke-width", width) + "/>\n";
+  shapes_ += "<line" + attribute("x1", x1) + attribute("y1", y1) + attribute("x2", x2) + attribute("y2", y2) +
+             attribute("stroke", colour) + attribute("stroke-width", width) + "/>\n";
 }
 
 void Svg::path(const std::vector<std::pair<double, double>>& points, const std::string& colour, double width) {
-  text_ += "<polyline" + attribute("points", list_of(points)) + " fill=\"none\"" + attribute("stroke", colour) +
-           attribute("stroke-width", width) + "/>\n";
+  shapes_ += "<polyline" + attribute("points", list_of(points)) + " fill=\"none\"" + attribute("stroke", colour) +
+             attribute("stroke-width", width) + "/>\n";
 }
 
 void Svg::polygon(const std::vector<std::pair<double, double>>& points, const std::string& fill) {
-  text_ += "<polygon" + attribute("points", list_of(points)) + attribute("fill", fill) + "/>\n";
+  shapes_ += "<polygon" + attribute("points", list_of(points)) + attribute("fill", fill) + "/>\n";
 }
 
 void Svg::circle(double x, double y, double radius, const std::string& fill) {
-  text_ +=
+  shapes_ +=
       "<circle" + attribute("cx", x) + attribute("cy", y) + attribute("r", radius) + attribute("fill", fill) + "/>\n";
 }
 
@@ -80,8 +80,10 @@ void Svg::text(double x, double y, const std::string& text, const std::string& a
                                                 : length),
                most_left = std::max(kMargin, width_ - kMargin - length);
   x += std::clamp(left, kMargin, most_left) - left;
-  text_ += "<text" + attribute("x", x) + attribute("y", y) + attribute("text-anchor", anchor) +
-           attribute("font-size", size) + attribute("fill", colour) + ">" + escaped(text) + "</text>\n";
+  labels_ += "<text" + attribute("x", x) + attribute("y", y) + attribute("text-anchor", anchor) +
+             attribute("font-size", size) + attribute("fill", colour) +
+             " stroke=\"white\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">" + escaped(text) +
+             "</text>\n";
 }
 
 }  // namespace butee::app::check

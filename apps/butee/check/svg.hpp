@@ -16,14 +16,15 @@ class Svg {
   void polygon(const std::vector<std::pair<double, double>>& points, const std::string& fill);
   void circle(double x, double y, double radius, const std::string& fill);
   /// `anchor` is start, middle or end; `text` is escaped, and moved into the picture if it would begin or end outside.
+  /// Texts lie above all shapes, with a white border.
   void text(double x, double y, const std::string& text, const std::string& anchor = "start", double size = 12.0,
             const std::string& colour = "#222222");
 
-  std::string finish() const { return text_ + "</svg>\n"; }
+  std::string finish() const { return shapes_ + labels_ + "</svg>\n"; }
 
  private:
   double width_;
-  std::string text_;
+  std::string shapes_, labels_;
 };
 
 }  // namespace butee::app::check
