@@ -42,7 +42,8 @@ void check_name(const std::string& name) {
     throw InputError("NAME = \"" + name +
                      "\": must be lower-case letters, digits and _, beginning with a letter: it becomes a C++ name and "
                      "the name in scenes, such as my_method");
-  static constexpr std::array kTaken = {"butee", "std", "auto", "stop", "double", "int", "class", "new", "long"};
+  static constexpr std::array kTaken = {"butee",  "std", "auto",  "stop", "friction", "distributed",
+                                        "double", "int", "class", "new",  "long"};
   if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end())
     throw InputError("NAME = \"" + name + "\": is a keyword of C++ or a name of butee; choose another one");
 }

@@ -94,30 +94,32 @@ bool is_complete(const SparseMatrix& stiffness, const SparseMatrix& mass, const 
 }
 
 /// The eigenvalues have the rounding of the highest one. Those of modes far below it are found again in the span of
-/// their shapes, which has the rounding of the entries of K, and so on for modes far below the highest of these. False
-/// if the eigenvalues were not found.
-bool refine_soft_modes(const SparseMatrix& stiffness, double highest, linalg::Pairs& pairs) {
+/// their shapes, which has the rounding of the entries of K or of the elements, and so on for modes far below the
+/// highest of these. False if the eigenvalues were not found.
+bool refine_soft_modes(SoftStiffness& stiffness, double highest, linalg::Pairs& pairs, Vector& rounding) {
   for (Index soft = count_soft(pairs.values, highest); soft > 0; soft = count_soft(pairs.values.head(soft), highest)) {
-    const auto turned =
-        linalg::dense_pairs(soft_stiffness(soft, std::numeric_limits<double>::infinity(), stiffness, pairs.vectors));
+    const auto turned = linalg::dense_pairs(stiffness.of(soft, pairs.vectors));
     if (!turned) return false;
     pairs.values.head(soft) = turned->values;
     pairs.vectors.leftCols(soft) *= turned->vectors;
+    rounding.head(soft) = turned->vectors.cwiseAbs2().transpose() * stiffness.rounding();
     highest = pairs.values[soft - 1];
     if (!(highest > 0.0)) break;
   }
   return true;
 }
 
-std::optional<Modes> modes_of(const SparseMatrix& stiffness, linalg::Pairs pairs, double highest) {
+std::optional<Modes> modes_of(const SparseMatrix& stiffness, const model::System& system, linalg::Pairs pairs,
+                              double highest) {
   const Index soft = count_soft(pairs.values, highest);
-  if (!refine_soft_modes(stiffness, highest, pairs)) return std::nullopt;
+  Vector rounding = Vector::Zero(soft);
+  SoftStiffness of_soft(stiffness, system, std::numeric_limits<double>::infinity());
+  if (!refine_soft_modes(of_soft, highest, pairs, rounding)) return std::nullopt;
   const Eigen::MatrixXd sizes = pairs.vectors.leftCols(soft).cwiseAbs(), forces = stiffness.cwiseAbs() * sizes;
   for (Index i = 0; i < soft; ++i) {
     double& value = pairs.values[i];
-    const double size = sizes.col(i).dot(forces.col(i));
-    if (value < -kNotNegative * size) require_no_growth(value, 0.0);
-    if (value <= kRoundingOfEntries * std::numeric_limits<double>::epsilon() * size) value = 0.0;
+    if (value < -kNotNegative * sizes.col(i).dot(forces.col(i))) require_no_growth(value, 0.0);
+    if (value <= rounding[i]) value = 0.0;
   }
   return Modes{pairs.values.cwiseSqrt(), std::move(pairs.vectors)};
 }
@@ -128,10 +130,10 @@ SparseMatrix even_stiffness(const model::System& system) {
   return 0.5 * (system.stiffness + SparseMatrix(system.stiffness.transpose()));
 }
 
-std::optional<Modes> dense_modes(const SparseMatrix& stiffness, const SparseMatrix& mass, Index count) {
-  const auto pairs = linalg::dense_pairs(stiffness, mass);
+std::optional<Modes> dense_modes(const SparseMatrix& stiffness, const model::System& system, Index count) {
+  const auto pairs = linalg::dense_pairs(stiffness, system.mass);
   if (!pairs) return std::nullopt;
-  auto modes = modes_of(stiffness, *pairs, pairs->values.maxCoeff());
+  auto modes = modes_of(stiffness, system, *pairs, pairs->values.maxCoeff());
   if (modes && count < stiffness.rows()) modes = Modes{modes->frequencies.head(count), modes->shapes.leftCols(count)};
   return modes;
 }
@@ -303,13 +305,12 @@ std::optional<Modes> lowest_modes(const model::System& system, Index count) {
     throw InputError("the " + std::to_string(count) + " lowest modes of " + std::to_string(system.size()) +
                      " degrees of freedom: that " + complaint + "; take fewer modes, or a method that needs none");
   const SparseMatrix stiffness = even_stiffness(system);
-  if (system.size() <= linalg::kDense || 2 * count + 1 > system.size())
-    return dense_modes(stiffness, system.mass, count);
+  if (system.size() <= linalg::kDense || 2 * count + 1 > system.size()) return dense_modes(stiffness, system, count);
   const auto highest = highest_eigenvalue(stiffness, system.mass);
   if (!highest) return std::nullopt;
   const auto pairs = lowest_pairs(stiffness, system.mass, *highest, count, kShapeTolerance);
   if (!pairs || !is_complete(stiffness, system.mass, pairs->values, *highest)) return std::nullopt;
-  return modes_of(stiffness, *pairs, *highest);
+  return modes_of(stiffness, system, *pairs, *highest);
 }
 
 }  // namespace butee::dynamics

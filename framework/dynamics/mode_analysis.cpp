@@ -95,8 +95,8 @@ std::vector<ClosedStop> closed_stops(const model::Model& model, const std::vecto
 ModeAnalysis analyse_modes(const model::Model& model, const model::System& system,
                            const std::vector<ClosedStop>& closed, Index count) {
   if (count > system.size())
-    throw InputError("-n " + std::to_string(count) +
-                     ": the scene has no more modes than free DOFs: " + std::to_string(system.size()));
+    throw InputError(std::to_string(count) +
+                     " modes: the scene has no more modes than free DOFs: " + std::to_string(system.size()));
   const Structure structure(model, system.dofs, closed);
   NaturalModes found = find_modes(structure, count);
   if (!found.problem.empty()) throw RunError("the modes could not be computed: " + found.problem);

@@ -57,7 +57,7 @@ NaturalMatrices natural_matrices(Dynamics& dynamics, double speed, double run_ti
     clear_rounding(odd.cwiseAbs(), shapes, stiffness);
   }
   const Index soft = std::max(rigid, count_soft(natural->values, natural->values[n - 1]));
-  stiffness.topLeftCorner(soft, soft) += soft_stiffness(soft, run_time, even, shapes);
+  stiffness.topLeftCorner(soft, soft) += SoftStiffness(even, system, run_time).of(soft, shapes);
   // Values below 0 are rounding, or those of a structure that is unstable without damping and bearings.
   const double rounding = kRoundingOfSquares * std::abs(natural->values[n - 1]);
   Vector squares = natural->values;

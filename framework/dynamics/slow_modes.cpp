@@ -55,26 +55,58 @@ Eigen::MatrixXd soft_product(Index count, const SparseMatrix& matrix, const Eige
   return product.cast<double>();
 }
 
-Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix& stiffness,
-                               const Eigen::MatrixXd& shapes) {
+Eigen::MatrixXd SoftStiffness::of(Index count, const Eigen::MatrixXd& shapes) {
   constexpr double kMixed = 1e-9;
-  Eigen::MatrixXd product = soft_product(count, stiffness, shapes);
+  // Products with less digits than this are found again by the elements; frequencies have one more.
+  constexpr double kDoubtful = 1e-10;
+  Eigen::MatrixXd product = soft_product(count, stiffness_, shapes);
   const Eigen::MatrixXd sizes = shapes.leftCols(count).cwiseAbs();
-  const SparseMatrix all = stiffness.cwiseAbs();
+  const SparseMatrix all = stiffness_.cwiseAbs();
   const Eigen::MatrixXd of_all = all * sizes;
-  const Eigen::MatrixXd rounding = std::numeric_limits<double>::epsilon() * (sizes.transpose() * of_all);
+  Eigen::MatrixXd rounding = std::numeric_limits<double>::epsilon() * (sizes.transpose() * of_all);
+  rounding_ = kRoundingOfEntries * rounding.diagonal();
+  if ((rounding_.array() > kDoubtful * product.diagonal().array()).any() && has_elements()) {
+    constexpr double kMargin = 4.0;     // as in find_modes()
+    constexpr double kOfShapes = 1e-3;  // shapes are rounded too: free beams of random meshes keep 1e-4 (chosen)
+    const Eigen::MatrixXd soft = shapes.leftCols(count);
+    const Structure::Elastic elastic = structure_->elastic(soft, true);
+    const linalg::ExtendedColumns by_elements = soft.cast<long double>().transpose() * elastic.forces;
+    product = by_elements.cast<double>();
+    product = (0.5 * (product + product.transpose())).eval();
+    rounding_ = (kMargin * elastic.rounding).cwiseMax(kOfShapes * rounding_);
+    const Vector root = rounding_.cwiseSqrt();
+    rounding = root * root.transpose();
+  }
   const Vector squares = product.diagonal();
-  const double still = kStill / (run_time * run_time);
-  const bool is_unlimited = std::isinf(run_time);
+  const double still = kStill / (run_time_ * run_time_);
+  const bool is_unlimited = std::isinf(run_time_);
   for (Index i = 0; i < count; ++i)
     for (Index j = 0; j < count; ++j) {
       double& value = product(i, j);
       if (i == j ? std::abs(value) <= still || (value < 0.0 && -value < rounding(i, i)) ||
-                       (is_unlimited && std::abs(value) < kRoundingOfEntries * rounding(i, i))
+                       (is_unlimited && std::abs(value) < rounding_[i])
                  : std::abs(value) <= std::max(rounding(i, j), kMixed * std::abs(squares[i] - squares[j])))
         value = 0.0;
     }
   return product;
+}
+
+bool SoftStiffness::has_elements() {
+  if (has_tried_) return structure_.has_value();
+  has_tried_ = true;
+  if (system_.model == nullptr) return false;
+  structure_.emplace(*system_.model, system_.dofs);
+  // K may have parts of other origin: bearings at a speed, changes by a program.
+  constexpr double kSame = 1e-13;
+  const SparseMatrix difference = structure_->stiffness().cast<double>() - stiffness_;
+  const Vector diagonal = stiffness_.diagonal().cwiseAbs();
+  for (Index column = 0; column < difference.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(difference, column); entry; ++entry)
+      if (std::abs(entry.value()) > kSame * std::max(diagonal[entry.row()], diagonal[column])) {
+        structure_.reset();
+        return false;
+      }
+  return true;
 }
 
 }  // namespace butee::dynamics

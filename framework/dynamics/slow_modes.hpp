@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
-#include "butee/core/types.hpp"
+#include "butee/dynamics/structure.hpp"
 
 namespace butee::dynamics {
 
@@ -31,12 +33,34 @@ Index count_soft(ConstVectorRef squares, double highest);
 /// S^T A S of the first `count` shapes S, to rounding of the entries of A.
 Eigen::MatrixXd soft_product(Index count, const SparseMatrix& matrix, const Eigen::MatrixXd& shapes);
 
-/// S^T K S of the first `count` shapes S, those of rigid and soft motion, to rounding of the entries of K. The
-/// eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn shapes of similar
-/// frequency into one another, and move a free body by kappa t^2/6 of its way if kappa is the error of omega^2. Entries
-/// that are rounding of K, or turn no shape by more than 1e-9, are 0; so are those of the diagonal that are below 0 by
-/// rounding or do not act within `run_time` seconds or, if that is infinite, are not above kRoundingOfEntries.
-Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix& stiffness,
-                               const Eigen::MatrixXd& shapes);
+/// S^T K S of shapes S of rigid and soft motion, to rounding of the entries of K or, where that is not enough, of those
+/// of the elements. The eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn
+/// shapes of similar frequency into one another, and move a free body by kappa t^2/6 of its way if kappa is the error
+/// of omega^2.
+class SoftStiffness {
+ public:
+  /// `stiffness` is K, and `system` the one whose model has its elements; both must outlive this object.
+  SoftStiffness(const SparseMatrix& stiffness, const model::System& system, double run_time)
+      : stiffness_(stiffness), system_(system), run_time_(run_time) {}
+
+  /// Of the first `count` shapes. Entries that are rounding, or turn no shape by more than 1e-9, are 0; so are those of
+  /// the diagonal that are below 0 by rounding or do not act within the run time or, if that is infinite, are not above
+  /// rounding.
+  Eigen::MatrixXd of(Index count, const Eigen::MatrixXd& shapes);
+  /// The rounding of the diagonal of the last product.
+  const Vector& rounding() const { return rounding_; }
+
+ private:
+  /// Whether the elements can replace K, which has no terms of other origin. Summed by element, a motion without strain
+  /// has no rounding.
+  bool has_elements();
+
+  const SparseMatrix& stiffness_;
+  const model::System& system_;
+  double run_time_;
+  Vector rounding_;
+  std::optional<Structure> structure_;
+  bool has_tried_ = false;
+};
 
 }  // namespace butee::dynamics

@@ -168,7 +168,7 @@ Whirl::Whirl(const model::Model& model, Index dense)
   }
   modal_stiffness_ = in_modes(skew_);
   modal_stiffness_.diagonal().tail(n - soft) += pairs->values.tail(n - soft);
-  modal_stiffness_.topLeftCorner(soft, soft) += soft_stiffness(soft, unlimited, stiffness_, shapes_);
+  modal_stiffness_.topLeftCorner(soft, soft) += SoftStiffness(stiffness_, system_, unlimited).of(soft, shapes_);
   frequencies_ = modal_stiffness_.diagonal().cwiseAbs().cwiseSqrt();
   modal_gyroscopic_ = in_modes(system_.gyroscopic);
   modal_circulatory_ = in_modes(system_.circulatory);

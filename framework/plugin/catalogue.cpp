@@ -1,6 +1,7 @@
 #include "butee/plugin/catalogue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -34,6 +35,21 @@ bool answers_to(const IntegratorType& type, std::string_view name) {
                  "; remove one of the two");
 }
 
+/// Names of types, and keys of every table of a kind, that the readers of a scene treat themselves. Those of contacts
+/// are checked where a law is used.
+struct Reserved {
+  const char* kind;
+  std::vector<std::string> types, keys;
+};
+
+const Reserved* reserved_for(const std::string& kind) {
+  static const std::array<Reserved, 3> all = {{{"contact", {"stop", "friction"}, {"type"}},
+                                               {"load", {"distributed"}, {"type", "node", "dof"}},
+                                               {"element", {}, {"type", "name"}}}};
+  const auto* const found = std::find_if(all.begin(), all.end(), [&](const Reserved& one) { return one.kind == kind; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 template <class Type>
 void require_names(const std::string& kind, const Type& type, const std::string& path) {
   if (type.name.empty()) throw RunError(path + ": registers a type of " + kind + " without a name");
@@ -43,6 +59,14 @@ void require_names(const std::string& kind, const Type& type, const std::string&
       throw RunError(
           path + ": the " + kind + " \"" + type.name + "\" declares " +
           (parameter.name.empty() ? "a parameter without a name" : "the parameter \"" + parameter.name + "\" twice"));
+  const Reserved* reserved = reserved_for(kind);
+  if (reserved == nullptr) return;
+  if (std::find(reserved->types.begin(), reserved->types.end(), type.name) != reserved->types.end())
+    refuse(kind, type.name, "butee itself", path);
+  for (const std::string& key : reserved->keys)
+    if (names.contains(key))
+      throw RunError(path + ": the " + kind + " \"" + type.name + "\" declares the parameter \"" + key +
+                     "\", a key that every [[" + kind + "]] has; rename it");
 }
 
 /// The type of that name in the module, which is loaded now.
@@ -91,6 +115,7 @@ auto named_on_failure(const std::string& what, const Call& call) -> decltype(cal
   }
 }
 
+/// The errors of the scene so far: where there are some, a factory may lack what they spoiled, and need not report it.
 std::size_t errors_in(const config::Diagnostics& diagnostics) {
   return diagnostics.error_count();
 }
@@ -102,15 +127,14 @@ std::size_t errors_in(const model::FieldLayout&) {
 }
 
 /// Makes the factories of a type throw RunError with the module's name for exceptions of other kinds, and for a result
-/// that is missing although they reported no error.
+/// that is missing although no error was reported.
 template <class Type>
 void check_factories(Type& type, const std::string& kind, const std::string& path) {
   const std::string what = path + ": making the " + kind + " \"" + type.name + "\"";
   type.make = [make = std::move(type.make), what](const auto& first, auto&&... others) {
     auto& last = std::get<sizeof...(others) - 1>(std::tie(others...));
-    const std::size_t before = errors_in(last);
     auto made = named_on_failure(what, [&] { return make(first, std::forward<decltype(others)>(others)...); });
-    if (made == nullptr && errors_in(last) == before) throw RunError(what + " gave nothing, and reported no error");
+    if (made == nullptr && errors_in(last) == 0) throw RunError(what + " gave nothing, and reported no error");
     if constexpr (std::is_same_v<Type, model::LawType>)
       if (made != nullptr && !(made->closed_stiffness() > 0.0 && std::isfinite(made->closed_stiffness())))
         throw RunError(what + " gave one with a closed_stiffness() of " + to_text(made->closed_stiffness()) + " N/m");

@@ -1,15 +1,24 @@
 #include "butee/python/part.hpp"
 
 #include "butee/core/error.hpp"
+#include "butee/core/log.hpp"
 #include "butee/embed/forced_dof.hpp"
 #include "butee/time/snapshot.hpp"
 
 namespace butee::python {
+namespace {
+
+/// The warnings of the scene were given when it was made.
+embed::Structure structure_of(const Session& session, const std::vector<std::string>& forced) {
+  const log::WithoutWarnings quiet;
+  return embed::Structure::from_document(session.document(),
+                                         {.forced = forced, .catalogue = session.scene().catalogue});
+}
+
+}  // namespace
+
 Part::Part(const Session& session, std::vector<std::string> forced)
-    : session_(session),
-      forced_(std::move(forced)),
-      structure_(embed::Structure::from_document(session.document(),
-                                                 {.forced = forced_, .catalogue = session.scene().catalogue})) {
+    : session_(session), forced_(std::move(forced)), structure_(structure_of(session, forced_)) {
   for (const std::string& selector : forced_) {
     const auto [nodes, kind] = embed::split_forced(selector);
     for (const Index dof : structure_.dofs(nodes, kind)) forced_dofs_.push_back(dof);

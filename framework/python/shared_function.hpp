@@ -56,7 +56,7 @@ using DeclaredParameters = std::vector<std::pair<std::string, std::optional<doub
 inline std::vector<std::string> declare(const DeclaredParameters& parameters, std::vector<config::Parameter>& to) {
   std::vector<std::string> names;
   for (const auto& [parameter, value] : parameters) {
-    const config::Parameter declared = config::number(parameter, "", "of the function in Python");
+    const config::Parameter declared = config::number(parameter, "", "a parameter of the function in Python");
     to.push_back(value ? declared.or_else(*value) : declared);
     names.push_back(parameter);
   }

@@ -92,9 +92,10 @@ class SceneReader {
   std::vector<NodalValue> rigid_rotation(const config::Parameters& parameters, const std::vector<NodeId>& nodes);
   void read_initial_motion(const config::Parameters& parameters);
   void check_dofs();
-  /// Reports elements whose matrices are not finite or too stiff to be computed, and those whose stiffness the sum with
-  /// that of other elements loses.
+  /// Reports elements whose matrices are not finite or too stiff to be computed.
   void check_magnitudes();
+  /// Reports elements beside which the rounding of a sum of stiffnesses is much of what holds its DOF.
+  void check_rounding();
   /// Reports a contact that is too stiff for the mass at its nodes; `stiffness` in N/m or N m/rad.
   void check_rate(const config::Parameters& parameters, const std::string& key, double stiffness,
                   const std::vector<NodeId>& nodes, const std::vector<DofKind>& directions);
@@ -120,6 +121,7 @@ class SceneReader {
   config::Diagnostics& diagnostics_;
   Model model_;
   std::optional<DofTable> dofs_;
+  std::vector<Index> rounded_;  ///< free DOFs whose softest stiffness is much smaller than the sum
   std::optional<ElementSums> sums_;          ///< absent after an error in an element or a support
   std::optional<std::size_t> gravity_load_;  ///< index among the loads
   std::optional<BaseFrame> stop_frame_;      ///< of the stops to ground, if there are any

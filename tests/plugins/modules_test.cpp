@@ -2,6 +2,7 @@
 #include <set>
 #include <sstream>
 
+#include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/plugin/catalogue.hpp>
 #include <butee/plugin/module.hpp>
@@ -124,6 +125,53 @@ TEST(Modules, TypesAndParametersNeedNamesOfTheirOwn) {
   EXPECT_EQ(complaint_about("soft", {factor, factor}),
             "mine: the law \"soft\" declares the parameter \"factor\" twice");
   EXPECT_EQ(complaint_about("soft", {nameless}), "mine: the law \"soft\" declares a parameter without a name");
+}
+
+TEST(Modules, NamesAndKeysThatSceneTablesHaveThemselvesAreRefused) {
+  const auto complaint_about = [](const std::string& name, const std::string& key) -> std::string {
+    plugin::ModuleTypes types;
+    model::LoadType load;
+    load.name = name;
+    load.parameters = {config::number(key, "", "a")};
+    types.loads = {load};
+    plugin::Catalogue catalogue;
+    try {
+      catalogue.add(std::move(types), "mine");
+      return "";
+    } catch (const RunError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(complaint_about("pulse", "width"), "");
+  expect_mentions(complaint_about("distributed", "width"), {"\"distributed\" is registered twice: by butee itself"});
+  EXPECT_EQ(complaint_about("pulse", "dof"),
+            "mine: the load \"pulse\" declares the parameter \"dof\", a key that every [[load]] has; rename it");
+}
+
+/// A factory that lacks a node, because the element of the node has an error, reports nothing itself.
+TEST(Modules, AnElementOnNodesOfAWrongElementIsNoFaultOfItsModule) {
+  plugin::ModuleTypes types;
+  model::ElementType tie;
+  tie.name = "tie";
+  tie.parameters = {config::text("node", "where it acts")};
+  tie.nodes = [](const config::Parameters&, config::Diagnostics&) -> model::ElementType::Nodes { return std::nullopt; };
+  tie.make = [](const config::Parameters& p, model::ElementContext& context) -> std::unique_ptr<model::Element> {
+    EXPECT_FALSE(context.node(p, "node"));
+    return nullptr;
+  };
+  types.elements = {tie};
+  plugin::Catalogue catalogue;
+  catalogue.add(std::move(types), "mine");
+  try {
+    (void)scene::read_scene(config::parse_toml("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = "
+                                               "-1.0\n[[element]]\ntype = \"tie\"\nnode = \"m\"\n"
+                                               "[integrator]\nend_time = 1.0\n",
+                                               "scene.toml"),
+                            catalogue);
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    expect_mentions(error.what(), {"scene.toml:5: element[0].mass = -1.0: must be >= 0"});
+  }
 }
 
 TEST(Modules, AFolderOfModulesIsFoundByEnvironmentAndOption) {

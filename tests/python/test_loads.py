@@ -68,6 +68,8 @@ def test_what_it_raises_fails_the_run():
 def test_names_that_are_taken_or_wrong():
     with pytest.raises(butee.RunError, match="registered twice"):
         butee.load("harmonic")(cosine)
+    with pytest.raises(butee.RunError, match="registered twice"):
+        butee.load("distributed")(cosine)
     for function in (lambda: 0.0, lambda t, *more: 0.0, lambda t, *, key: 0.0):
         with pytest.raises(TypeError):
             butee.load("python_wrong")(function)
