@@ -92,21 +92,10 @@ Eigen::MatrixXd SoftStiffness::of(Index count, const Eigen::MatrixXd& shapes) {
 }
 
 bool SoftStiffness::has_elements() {
-  if (has_tried_) return structure_.has_value();
+  if (!has_tried_)
+    if (auto found = Structure::of(system_, stiffness_)) structure_.emplace(std::move(*found));
   has_tried_ = true;
-  if (system_.model == nullptr) return false;
-  structure_.emplace(*system_.model, system_.dofs);
-  // K may have parts of other origin: bearings at a speed, changes by a program.
-  constexpr double kSame = 1e-13;
-  const SparseMatrix difference = structure_->stiffness().cast<double>() - stiffness_;
-  const Vector diagonal = stiffness_.diagonal().cwiseAbs();
-  for (Index column = 0; column < difference.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(difference, column); entry; ++entry)
-      if (std::abs(entry.value()) > kSame * std::max(diagonal[entry.row()], diagonal[column])) {
-        structure_.reset();
-        return false;
-      }
-  return true;
+  return structure_.has_value();
 }
 
 }  // namespace butee::dynamics

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/dynamics/free_motion.hpp"
+#include "butee/dynamics/structure.hpp"
 #include "butee/linalg/linear_solver.hpp"
 
 namespace butee::dynamics {
@@ -22,7 +24,9 @@ constexpr double kSufficient = 0.5;
 /// Rounding of the residual, as a part of the sum of the sizes of its terms: of loads and contacts, and of elastic
 /// forces, which are summed in extended precision.
 constexpr double kRounding = 1e-14, kRoundingOfElastic = 100.0 * std::numeric_limits<long double>::epsilon();
-/// A motion d is held by rounding if d^T K d is below this part of |d|^T |K| |d|: K may have as much rounding.
+/// A motion d is held by rounding if d^T K d is below this part of |d|^T |K| |d|: K may have as much rounding. If the
+/// elements are known, it must be below this multiple of their rounding.
+constexpr double kOfElements = 4.0;
 constexpr double kHeldByRounding = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// K + S^T diag(k) S
@@ -56,14 +60,6 @@ ExtendedVector product(const SparseMatrix& matrix, const ExtendedVector& x) {
   return y;
 }
 
-/// Whether rounding alone may hold the motion d. False for none.
-bool is_held_by_rounding(const SparseMatrix& tangent, const Vector& d) {
-  const ExtendedVector way = d.cast<long double>();
-  const double work = static_cast<double>(way.dot(product(tangent, way)));
-  const double size = d.cwiseAbs().dot(tangent.cwiseAbs() * d.cwiseAbs());
-  return size > 0.0 && std::abs(work) <= kHeldByRounding * size;
-}
-
 class Equilibrium {
  public:
   Equilibrium(Dynamics& dynamics, double t)
@@ -72,7 +68,8 @@ class Equilibrium {
         elastic_(load_),
         rest_(Vector::Zero(dynamics.size())),
         t_(t),
-        w_(dynamics.stop_count()) {
+        w_(dynamics.stop_count()),
+        structure_(Structure::of(dynamics.system(), dynamics.system().stiffness)) {
     if (dynamics.obstacles() != nullptr) dynamics.obstacles()->follow_live_without_friction();
     dynamics.external_force(t, load_);
     const model::System& system = dynamics.system();
@@ -99,7 +96,7 @@ class Equilibrium {
     dynamics_.add_contact_force(rounded, r);
     dynamics_.add_obstacle_force(t_, rounded, rest_, r);
     const model::System& system = dynamics_.system();
-    ExtendedVector elastic = product(system.stiffness, x);
+    ExtendedVector elastic = structure_ ? ExtendedVector(structure_->stiffness() * x) : product(system.stiffness, x);
     // As Turning::add_elastic_force(). At a constant speed these terms are in K.
     if (system.rotation != nullptr && system.circulatory.size() > 0)
       elastic += static_cast<long double>(system.rotation->speed(t_)) * product(system.circulatory, x);
@@ -146,6 +143,27 @@ class Equilibrium {
     return support;
   }
 
+  /// Whether rounding alone may hold the motion d. False for none.
+  bool is_held_by_rounding(const SparseMatrix& tangent, const Vector& d) const {
+    const ExtendedVector way = d.cast<long double>();
+    if (structure_) {
+      const Structure::Elastic elastic = structure_->elastic(d, true);
+      const SparseMatrix contacts = tangent - dynamics_.system().stiffness;
+      const Vector large = contacts.cwiseAbs() * d.cwiseAbs();
+      const double work = static_cast<double>(way.dot(elastic.forces.col(0))) + d.dot(contacts * d),
+                   of_contacts = std::numeric_limits<double>::epsilon() * d.cwiseAbs().dot(large);
+      return !d.isZero(0.0) && std::abs(work) <= kOfElements * (elastic.rounding[0] + of_contacts);
+    }
+    return may_be_held_by_rounding(tangent, d);
+  }
+  /// The same by the entries of the tangent, which have more rounding than the elements.
+  static bool may_be_held_by_rounding(const SparseMatrix& tangent, const Vector& d) {
+    const ExtendedVector way = d.cast<long double>();
+    const double work = static_cast<double>(way.dot(product(tangent, way)));
+    const double size = d.cwiseAbs().dot(tangent.cwiseAbs() * d.cwiseAbs());
+    return size > 0.0 && std::abs(work) <= kHeldByRounding * size;
+  }
+
   /// The rounding of the residual, N.
   double rounding(const SparseMatrix& tangent, const Vector& x) const {
     const SparseMatrix contacts = tangent - dynamics_.system().stiffness;
@@ -160,6 +178,7 @@ class Equilibrium {
   Vector rest_;  ///< velocity of the DOFs at rest, m/s
   double t_;
   Vector w_;
+  std::optional<Structure> structure_;  ///< the elements, whose sum has more digits than K
 };
 
 InputError not_found(double residual) {
@@ -193,7 +212,7 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
     if (solved) solver.solve(step);
     // Bodies that nothing holds yet, or that buckle: a weak support gives a long step along their loads, and the search
     // along it ends where a contact holds them. If the stiffness along the step is rounding, nothing holds it either.
-    const bool falls = !solved || !step.allFinite() || is_held_by_rounding(tangent, step);
+    const bool falls = !solved || !step.allFinite() || equilibrium.is_held_by_rounding(tangent, step);
     solved = !falls;
     for (double part = kWeakest; !solved && part <= 1.0; part *= 10.0) {
       const SparseMatrix held = tangent + equilibrium.support(part);
@@ -228,7 +247,8 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
       (rest * work > 0.0 ? low : high) = part;
     }
     if (!(next < size) && r.norm() <= equilibrium.rounding(tangent, x.cast<double>())) break;
-    if (!is_better) throw falls ? not_held(tangent, system) : not_found(size);
+    if (!is_better)
+      throw falls || Equilibrium::may_be_held_by_rounding(tangent, step) ? not_held(tangent, system) : not_found(size);
     x = moved;
     r.swap(next_r);
     size = next;
@@ -236,8 +256,9 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
   const Vector found = x.cast<double>();
   const SparseMatrix tangent = equilibrium.tangent(found);
   // Structures that nothing holds come to rest where rounding balances the forces, very far away.
-  if (is_held_by_rounding(tangent, found - start)) throw not_held(tangent, system);
-  if (size > kConverged && r.norm() > equilibrium.rounding(tangent, found)) throw not_found(size);
+  if (equilibrium.is_held_by_rounding(tangent, found - start)) throw not_held(tangent, system);
+  if (size > kConverged && r.norm() > equilibrium.rounding(tangent, found))
+    throw Equilibrium::may_be_held_by_rounding(tangent, found - start) ? not_held(tangent, system) : not_found(size);
   return found;
 }
 

@@ -1,6 +1,8 @@
 #include "butee/dynamics/structure.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace butee::dynamics {
@@ -130,6 +132,18 @@ Structure::Structure(const model::Model& model, const DofTable& dofs, std::vecto
   stiffness_ = sink.build(sink.stiffness);
   carried_ = sink.carried();
   total_mass_ = sink.total_mass();
+}
+
+std::optional<Structure> Structure::of(const model::System& system, const SparseMatrix& stiffness) {
+  constexpr double kSame = 1e-13;
+  if (system.model == nullptr) return std::nullopt;
+  std::optional<Structure> structure(std::in_place, *system.model, system.dofs);
+  const SparseMatrix difference = structure->stiffness().cast<double>() - stiffness;
+  const Vector diagonal = stiffness.diagonal().cwiseAbs();
+  for (Index column = 0; column < difference.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(difference, column); entry; ++entry)
+      if (std::abs(entry.value()) > kSame * std::max(diagonal[entry.row()], diagonal[column])) return std::nullopt;
+  return structure;
 }
 
 void Structure::visit(model::MatrixSink& sink) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "butee/linalg/extended.hpp"
@@ -26,6 +27,10 @@ class BUTEE_EXPORT Structure {
  public:
   /// `model` must outlive this object; `dofs` is that of the model's System.
   Structure(const model::Model& model, const model::DofTable& dofs, std::vector<ClosedStop> closed = {});
+
+  /// The structure of system.model if `stiffness` is the sum of its elements to rounding; it may have parts of other
+  /// origin, as bearings at a speed, or changes by a program.
+  static std::optional<Structure> of(const model::System& system, const SparseMatrix& stiffness);
 
   Index size() const { return mass_.rows(); }
   const linalg::ExtendedMatrix& mass() const { return mass_; }            ///< n x n, kg ...
