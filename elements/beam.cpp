@@ -15,6 +15,22 @@ namespace {
 
 constexpr std::array<DofKind, 2> kPlaneY = {DofKind::uy, DofKind::rz}, kPlaneZ = {DofKind::uz, DofKind::ry};
 
+/// The largest ratio of the lengths of parts whose stiffnesses are rounded alike: the softest then changes by 1e-12.
+constexpr double kMostUneven = 10.0;
+
+/// Rounds the forces of displacements and of rotations to multiples of one number each, 2^-50 of those of the stiffest
+/// part, so that sums of those of neighbours have no rounding.
+void round_alike(const Eigen::Matrix4d& stiffest, Eigen::Matrix4d& stiffness) {
+  for (Index j = 0; j < 4; ++j)
+    for (Index i = 0; i < 4; ++i) {
+      const double largest = std::abs(stiffest(i % 2, j % 2));
+      const bool is_of_rotations = i % 2 == 1 && j % 2 == 1;  // their sums lose n^2 epsilon only
+      if (is_of_rotations || !(largest > 0.0) || !std::isfinite(largest)) continue;
+      const double above = std::ldexp(6.0, std::ilogb(largest));
+      stiffness(i, j) = (stiffness(i, j) + above) - above;
+    }
+}
+
 /// The indices, among the DOFs of a part, of the DOFs of one plane of bending, of axial motion or
 /// of torsion.
 std::vector<Index> places_of(const std::vector<DofKind>& kinds, std::span<const DofKind> wanted) {
@@ -66,7 +82,16 @@ Beam::Beam(model::Material material, model::Section section, std::vector<NodeId>
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(first), std::abs(last));
   const auto uneven = std::adjacent_find(coordinates_.begin(), coordinates_.end(),
                                          [&](double a, double b) { return std::abs(b - a - mean) > rounding; });
-  if (uneven == coordinates_.end()) even_length_ = mean;
+  if (uneven == coordinates_.end()) {
+    even_length_ = mean;
+    return;
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (Index e = 0; e + 1 < std::ssize(coordinates_); ++e) {
+    least = std::min(least, length_of(e));
+    most = std::max(most, length_of(e));
+  }
+  if (most <= kMostUneven * least) shortest_ = least;
 }
 
 bool Beam::is_along_axes() const {
@@ -99,14 +124,23 @@ void Beam::claim(model::DofTable& dofs) const {
     for (const DofKind kind : kinds) dofs.claim({node, kind}, true);
 }
 
-BendingMatrices Beam::bending(const Part& part, bool in_xy) const {
-  const double l = part.length;
+BendingProperties Beam::properties(double l, double preload, bool in_xy) const {
   const double moment = in_xy ? section_.second_moment : section_.second_moment_y;
   const double stiffness = material_.young_modulus * moment;
   const auto& factor = in_xy ? section_.shear_factor_y : section_.shear_factor_z;
-  return BendingMatrices({l, stiffness, material_.density * section_.area,
-                          options_.theory == BeamTheory::euler ? 0.0 : material_.density * moment,
-                          shear_ratio(options_, material_, stiffness, section_.area, factor, l), part.preload});
+  return {l,
+          stiffness,
+          material_.density * section_.area,
+          options_.theory == BeamTheory::euler ? 0.0 : material_.density * moment,
+          shear_ratio(options_, material_, stiffness, section_.area, factor, l),
+          preload};
+}
+
+BendingMatrices Beam::bending(const Part& part, bool in_xy) const {
+  BendingMatrices matrices(properties(part.length, part.preload, in_xy));
+  if (shortest_ > 0.0)
+    round_alike(BendingMatrices(properties(shortest_, part.preload, in_xy)).stiffness, matrices.stiffness);
+  return matrices;
 }
 
 model::ElementMatrices Beam::matrices_of(const Part& part, bool turns) const {

@@ -60,6 +60,8 @@ class Beam final : public model::Element {
   Part part_at(Index part) const {
     return {length_of(part), preloads_.empty() ? options_.preload : preloads_[static_cast<std::size_t>(part)]};
   }
+  /// Of a part of length l, m, with an axial force, N, in one plane of bending.
+  BendingProperties properties(double l, double preload, bool in_xy) const;
   BendingMatrices bending(const Part& part, bool in_xy) const;
   /// Mass, stiffness and, if the beam turns, gyroscopic matrix of a part on the DOFs of dofs_of().
   model::ElementMatrices matrices_of(const Part& part, bool turns) const;
@@ -76,6 +78,9 @@ class Beam final : public model::Element {
   /// The length of each part if they are equal, so that the sums of equal stiffnesses have no rounding: in a mesh of n
   /// elements it would count n^4 times. 0 if they are not.
   double even_length_ = 0.0;
+  /// The least length of the parts if they are moderately uneven: their stiffnesses are rounded alike, to the same end.
+  /// 0 if they are not.
+  double shortest_ = 0.0;
   BeamOptions options_;
   std::vector<double> preloads_;  ///< of the parts; empty: the preload of the options
 };

@@ -57,7 +57,7 @@ Eigen::MatrixXd soft_product(Index count, const SparseMatrix& matrix, const Eige
 
 Eigen::MatrixXd SoftStiffness::of(Index count, const Eigen::MatrixXd& shapes) {
   constexpr double kMixed = 1e-9;
-  // Products with less digits than this are found again by the elements; frequencies have one more.
+  // Products whose rounding is a larger part than this are summed again by the elements.
   constexpr double kDoubtful = 1e-10;
   Eigen::MatrixXd product = soft_product(count, stiffness_, shapes);
   const Eigen::MatrixXd sizes = shapes.leftCols(count).cwiseAbs();
