@@ -121,7 +121,7 @@ class SceneReader {
   config::Diagnostics& diagnostics_;
   Model model_;
   std::optional<DofTable> dofs_;
-  std::vector<Index> rounded_;  ///< free DOFs whose softest stiffness is much smaller than the sum
+  std::vector<Index> rounded_;               ///< free DOFs whose softest stiffness is much smaller than the sum
   std::optional<ElementSums> sums_;          ///< absent after an error in an element or a support
   std::optional<std::size_t> gravity_load_;  ///< index among the loads
   std::optional<BaseFrame> stop_frame_;      ///< of the stops to ground, if there are any

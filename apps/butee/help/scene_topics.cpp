@@ -69,7 +69,8 @@ std::string selectors_text(const plugin::Catalogue&) {
 }
 
 std::string elements_text(const plugin::Catalogue& catalogue) {
-  return "[[element]]: `type` is one of the following, `name` the name by which its own nodes are selected (an element on nodes of others has none).\n" +
+  return "[[element]]: `type` is one of the following, `name` the name by which its own nodes are selected (an element "
+         "on nodes of others has none).\n" +
          listed(catalogue.types().elements) + "\n[section.X]: `shape` is one of the following.\n" +
          listed(catalogue.types().sections);
 }
