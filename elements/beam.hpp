@@ -60,7 +60,7 @@ class Beam final : public model::Element {
   Part part_at(Index part) const {
     return {length_of(part), preloads_.empty() ? options_.preload : preloads_[static_cast<std::size_t>(part)]};
   }
-  /// Of a part of length l, m, with an axial force, N, in one plane of bending.
+  /// Returns the properties of a part of length l, m, with the axial force `preload`, N, in one plane of bending.
   BendingProperties properties(double l, double preload, bool in_xy) const;
   BendingMatrices bending(const Part& part, bool in_xy) const;
   /// Mass, stiffness and, if the beam turns, gyroscopic matrix of a part on the DOFs of dofs_of().

@@ -43,9 +43,9 @@ class SoftStiffness {
   SoftStiffness(const SparseMatrix& stiffness, const model::System& system, double run_time)
       : stiffness_(stiffness), system_(system), run_time_(run_time) {}
 
-  /// Of the first `count` shapes. Entries that are rounding, or turn no shape by more than 1e-9, are 0; so are those of
-  /// the diagonal that are below 0 by rounding or do not act within the run time or, if that is infinite, are not above
-  /// rounding.
+  /// Returns the product of the first `count` shapes. Entries that are rounding, or turn no shape by more than 1e-9,
+  /// are 0; so are those of the diagonal that are below 0 by rounding or do not act within the run time or, if that is
+  /// infinite, are not above rounding.
   Eigen::MatrixXd of(Index count, const Eigen::MatrixXd& shapes);
   /// The rounding of the diagonal of the last product.
   const Vector& rounding() const { return rounding_; }

@@ -6,14 +6,14 @@
 
 namespace butee::scene {
 
-/// What the elements of a scene contribute to the diagonals of its matrices, DOF by DOF. Private to the framework.
+/// Sums the contributions of elements to the diagonals of the matrices, DOF by DOF. Private to the framework.
 class ElementSums final : public model::MatrixSink {
  public:
   struct Contribution {
     double value = 0.0;
     std::size_t element = 0;
   };
-  /// Of one free DOF: sums in kg, N/m and N s/m, or kg m2, N m/rad and N m s/rad.
+  /// The sums of one free DOF in kg, N/m and N s/m, or kg m2, N m/rad and N m s/rad.
   struct Sum {
     double mass = 0.0, stiffness = 0.0, damping = 0.0;
     Contribution stiffest, softest, most_damped;  ///< the softest of those above 0 that are not rounding of their part
@@ -26,7 +26,7 @@ class ElementSums final : public model::MatrixSink {
   void begin_element(std::size_t element) { element_ = element; }
   void add(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices) override;
 
-  /// Of each free DOF, in the order of DofTable::free().
+  /// Returns the sums of all free DOFs, in the order of DofTable::free().
   const std::vector<Sum>& sums() const { return sums_; }
   /// Elements with an entry that is not finite, ascending.
   const std::vector<std::size_t>& not_finite() const { return not_finite_; }

@@ -125,7 +125,7 @@ void add_supports(const model::Model& model, const Placer& placer, Layout& layou
   for (const auto& [node, mark] : marks) layout.supports.push_back(mark);
 }
 
-/// Of a stop that closes in one direction only.
+/// Names the direction of a stop that closes in one only.
 const char* sides_of(const model::FreePlay& play) {
   if (play.has_positive() && play.has_negative()) return "";
   return play.has_positive() ? ", sides positive" : ", sides negative";
