@@ -7,6 +7,8 @@ namespace butee::conformance {
 // The requirements on an integrator, grouped by file; integrator_checks() describes them.
 Finding check_order(const Subject& subject);
 
+Finding check_stability(const Subject& subject);
+
 Finding check_purity(const Subject& subject);
 Finding check_restart(const Subject& subject);
 Finding check_interpolation(const Subject& subject);

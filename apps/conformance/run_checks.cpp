@@ -67,6 +67,8 @@ Finding check_skipped_contact(const Subject& subject) {
 
 std::vector<Check> integrator_checks() {
   return {{"order", "equal steps of forced, damped motion converge in x and v with the declared order", check_order},
+          {"stability", "undamped oscillation and a braked mass stay bounded up to the declared limits, and not beyond",
+           check_stability},
           {"purity", "a step depends only on its state and length", check_purity},
           {"restart", "a new integrator continues bit for bit", check_restart},
           {"interpolation", "the interpolant meets both ends of a step", check_interpolation},

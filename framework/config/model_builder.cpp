@@ -36,12 +36,16 @@ ModelBuilder::ModelBuilder() {
   (*document_.root.table())["schema"] = Value(std::int64_t{1});
 }
 
+void ModelBuilder::refuse(const std::string& problem) const {
+  throw LogicError(document_.sources.front() + ":" + std::to_string(calls_) + ": " + problem);
+}
+
 Value& ModelBuilder::table_at(const std::string& path) {
   Value* value = &document_.root;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t dot = std::min(path.find('.', begin), path.size());
     value = &(*value->table())[path.substr(begin, dot - begin)];
-    require(value->table() != nullptr, "a part of the path is not a table");
+    if (value->table() == nullptr) refuse(path + ": " + path.substr(0, dot) + " is not a table, but " + value->kind());
     begin = dot + 1;
   }
   return *value;
@@ -62,7 +66,8 @@ ModelBuilder& ModelBuilder::add(const std::string& list, const Keys& keys) {
   const Location at{0, ++calls_};
   Value& value = (*document_.root.table())[list];
   if (value.array() == nullptr) {
-    require(value.table() != nullptr && value.table()->entries.empty(), "there is something else of the list's name");
+    if (value.table() == nullptr || !value.table()->entries.empty())
+      refuse(list + " is not a list, but " + value.kind() + "; set() gives keys to a table");
     value = Value(Array{}, at);
   }
   value.array()->push_back(table_of(keys, at));

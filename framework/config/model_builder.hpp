@@ -52,7 +52,7 @@ class BUTEE_EXPORT ModelBuilder {
   ModelBuilder();
 
   /// Sets keys of a table, "integrator" or "material.steel". A missing table is created; an
-  /// existing key is replaced. Throws LogicError if part of the path is a list or a number.
+  /// existing key is replaced. Throws LogicError with the number of the call if part of the path is a list or a number.
   ModelBuilder& set(const std::string& table, const Keys& keys);
   /// Appends to a list of tables: "element", "support", "contact", "load".
   ModelBuilder& add(const std::string& list, const Keys& keys);
@@ -64,6 +64,7 @@ class BUTEE_EXPORT ModelBuilder {
 
  private:
   Value& table_at(const std::string& path);
+  [[noreturn]] void refuse(const std::string& problem) const;
 
   Document document_;
   std::int32_t calls_ = 0;

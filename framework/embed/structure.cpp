@@ -134,6 +134,12 @@ NodalForce& Structure::Parts::force_on(Index dof) {
 }
 
 Structure::Structure(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+Structure::Parts& Structure::parts() const {
+  if (parts_ != nullptr) return *parts_;
+  throw LogicError("the structure was moved from; use the one that it was moved to");
+}
+
 Structure::Structure(Structure&& other) noexcept = default;
 Structure& Structure::operator=(Structure&& other) noexcept = default;
 Structure::~Structure() = default;
@@ -171,19 +177,19 @@ Structure Structure::from_document(config::Document document, const StructureOpt
 }
 
 Index Structure::size() const {
-  return parts_->assembly->system.size();
+  return parts().assembly->system.size();
 }
 
 std::string Structure::dof_name(Index dof) const {
   check_dof(dof, size());
-  return parts_->assembly->dynamics.dof_name(dof);
+  return parts().assembly->dynamics.dof_name(dof);
 }
 
 Index Structure::dof(const std::string& selector, DofKind kind) const {
-  const auto dofs = parts_->select(selector, kind);
+  const auto dofs = parts().select(selector, kind);
   if (dofs.size() != 1)
     throw InputError(selector + ": names " + std::to_string(dofs.size()) + " nodes; dofs() takes several");
-  const Index index = parts_->assembly->system.dofs.index(dofs.front());
+  const Index index = parts().assembly->system.dofs.index(dofs.front());
   if (index >= 0) return index;
   throw InputError(selector + ": " + name_of(kind) +
                    (index == model::DofTable::kFixed ? " is fixed by a support there" : " does not exist there"));
@@ -191,8 +197,8 @@ Index Structure::dof(const std::string& selector, DofKind kind) const {
 
 std::vector<Index> Structure::dofs(const std::string& selector, DofKind kind) const {
   std::vector<Index> free;
-  for (const model::NodalDof dof : parts_->select(selector, kind))
-    if (const Index index = parts_->assembly->system.dofs.index(dof); index >= 0) free.push_back(index);
+  for (const model::NodalDof dof : parts().select(selector, kind))
+    if (const Index index = parts().assembly->system.dofs.index(dof); index >= 0) free.push_back(index);
   return free;
 }
 
@@ -216,8 +222,8 @@ void Structure::advance_to(double t) {
 }
 
 bool Structure::advance_to(double t, const std::function<bool()>& goes_on) {
-  const Advance advance(*parts_, "advance_to");
-  time::Simulation& simulation = parts_->assembly->simulation;
+  const Advance advance(parts(), "advance_to");
+  time::Simulation& simulation = parts().assembly->simulation;
   simulation.start();
   check_time(t, time(), true, "advance_to");
   if (t == time() && !simulation.report().message.empty()) throw RunError(simulation.report().message);
@@ -230,8 +236,8 @@ bool Structure::advance_to(double t, const std::function<bool()>& goes_on) {
 }
 
 double Structure::advance_step(double limit) {
-  const Advance advance(*parts_, "advance_step");
-  time::Simulation& simulation = parts_->assembly->simulation;
+  const Advance advance(parts(), "advance_step");
+  time::Simulation& simulation = parts().assembly->simulation;
   simulation.start();
   check_time(limit, time(), false, "advance_step");
   if (simulation.report().message.empty()) simulation.set_end_time(limit);
@@ -241,8 +247,8 @@ double Structure::advance_step(double limit) {
 }
 
 const time::State& Structure::state() const {
-  parts_->assembly->simulation.start();
-  return parts_->assembly->simulation.state();
+  parts().assembly->simulation.start();
+  return parts().assembly->simulation.state();
 }
 
 double Structure::displacement(Index dof) const {
@@ -261,10 +267,10 @@ double Structure::acceleration(Index dof) const {
 }
 
 void Structure::set_motion(ConstVectorRef displacements, ConstVectorRef velocities) {
-  parts_->check_idle("set_motion");
+  parts().check_idle("set_motion");
   check_numbers(displacements, "a displacement", size());
   check_numbers(velocities, "a velocity", size());
-  parts_->assembly->simulation.set_motion(displacements, velocities);
+  parts().assembly->simulation.set_motion(displacements, velocities);
 }
 
 void Structure::set_displacement(Index dof, double value) {
@@ -295,23 +301,23 @@ void Structure::set_force(Index dof, double from, double to, double until) {
 }
 
 void Structure::set_line(Index dof, const NodalForce::Line& line) {
-  NodalForce& force = parts_->force_on(dof);
-  if (parts_->assembly->simulation.is_observed())
+  NodalForce& force = parts().force_on(dof);
+  if (parts().assembly->simulation.is_observed())
     throw LogicError("set_force() is called by an observer; call it between steps, for example in goes_on");
   const bool jump = force.value(time()) != line.value;
   force.line = line;
-  parts_->assembly->simulation.loads_changed(jump);
+  parts().assembly->simulation.loads_changed(jump);
 }
 
 double Structure::force(Index dof) const {
-  return parts_->force_on(dof).value(time());
+  return parts().force_on(dof).value(time());
 }
 
 double Structure::contact_force(Index dof) const {
   check_dof(dof, size());
   Vector force = Vector::Zero(size());
   const time::State& now = state();
-  parts_->assembly->dynamics.add_held_contact_force(now.t, now.x, now.v, force);
+  parts().assembly->dynamics.add_held_contact_force(now.t, now.x, now.v, force);
   return force[dof];
 }
 
@@ -320,85 +326,88 @@ double Structure::quantity(const std::string& name, const std::string& node, con
   if (const auto source = source_of(quantity);
       !element.empty() && source != model::Source::section && source != model::Source::springs)
     throw InputError(element + ": " + name + " is not the force of an element; give no element");
-  const auto nodes = parts_->select(node, DofKind::u);
+  const auto nodes = parts().select(node, DofKind::u);
   if (nodes.size() != 1)
     throw InputError(node + ": names " + std::to_string(nodes.size()) + " nodes; exactly one is required");
   const std::string problem =
-      model::why_not(quantity, parts_->scene.model, parts_->assembly->system.dofs, nodes.front().node, element);
+      model::why_not(quantity, parts().scene.model, parts().assembly->system.dofs, nodes.front().node, element);
   if (!problem.empty()) throw InputError(node + ": " + problem);
-  record::Probes probe({{"", nodes.front().node, {quantity}, element}}, parts_->assembly->dynamics);
+  record::Probes probe({{"", nodes.front().node, {quantity}, element}}, parts().assembly->dynamics);
   double value = 0.0;
   probe.evaluate(state(), {&value, 1});
   return value;
 }
 
 Structure::Snapshot Structure::snapshot() const {
-  Snapshot snapshot{parts_->assembly->simulation.snapshot(), {}, parts_->origin};
-  for (const auto& [dof, force] : parts_->forces) snapshot.forces.push_back(force->line);
+  Snapshot snapshot{parts().assembly->simulation.snapshot(), {}, parts().origin};
+  for (const auto& [dof, force] : parts().forces) snapshot.forces.push_back(force->line);
   return snapshot;
 }
 
 void Structure::restore(const Snapshot& snapshot) {
-  parts_->check_idle("restore");
-  if (snapshot.origin != parts_->origin)
+  parts().check_idle("restore");
+  if (snapshot.origin != parts().origin)
     throw LogicError("the snapshot is of another structure: its scene, options or observers differ");
-  parts_->assembly->simulation.restore(snapshot.run);
+  if (snapshot.forces.size() != parts().forces.size())
+    throw LogicError("the snapshot has " + std::to_string(snapshot.forces.size()) + " forces; the structure has " +
+                     std::to_string(parts().forces.size()));
+  parts().assembly->simulation.restore(snapshot.run);
   auto line = snapshot.forces.begin();
-  for (const auto& [dof, force] : parts_->forces) force->line = *line++;
-  parts_->assembly->dynamics.loads_changed();
+  for (const auto& [dof, force] : parts().forces) force->line = *line++;
+  parts().assembly->dynamics.loads_changed();
 }
 
 void Structure::observe(time::Observer& observer) {
-  parts_->assembly->simulation.add(observer);
-  parts_->mark(typeid(observer).name());
+  parts().assembly->simulation.add(observer);
+  parts().mark(typeid(observer).name());
 }
 
 void Structure::follow_peaks(const std::string& selector, const std::vector<model::Quantity>& quantities) {
   std::vector<model::ProbeRequest> requests;
   std::string label;
-  for (const model::NodalDof dof : parts_->select(selector, DofKind::u)) {
-    requests.push_back({parts_->scene.model.nodes.name(dof.node), dof.node, quantities});
+  for (const model::NodalDof dof : parts().select(selector, DofKind::u)) {
+    requests.push_back({parts().scene.model.nodes.name(dof.node), dof.node, quantities});
     for (const model::Quantity quantity : quantities) {
-      parts_->check_peak(requests.back().label, dof.node, quantity);
+      parts().check_peak(requests.back().label, dof.node, quantity);
       label += requests.back().label + "." + model::name_of(quantity) + "\n";
     }
   }
-  auto peaks = std::make_unique<record::Peaks>(requests, parts_->assembly->dynamics);
-  parts_->assembly->simulation.add(*peaks);
-  parts_->peaks.push_back(std::move(peaks));
-  parts_->mark(label);
+  auto peaks = std::make_unique<record::Peaks>(requests, parts().assembly->dynamics);
+  parts().assembly->simulation.add(*peaks);
+  parts().peaks.push_back(std::move(peaks));
+  parts().mark(label);
 }
 
 std::map<std::string, double> Structure::peaks() const {
-  parts_->assembly->simulation.start();
+  parts().assembly->simulation.start();
   std::map<std::string, double> all;
-  for (const auto& peaks : parts_->peaks) all.merge(peaks->largest());
+  for (const auto& peaks : parts().peaks) all.merge(peaks->largest());
   return all;
 }
 
 double Structure::peak(const std::string& node, model::Quantity quantity) const {
-  const auto dofs = parts_->select(node, DofKind::u);
+  const auto dofs = parts().select(node, DofKind::u);
   const auto all = peaks();
   const auto found =
-      all.find(parts_->scene.model.nodes.name(dofs.front().node) + "." + std::string(model::name_of(quantity)));
+      all.find(parts().scene.model.nodes.name(dofs.front().node) + "." + std::string(model::name_of(quantity)));
   if (dofs.size() == 1 && found != all.end()) return found->second;
   throw InputError(node + ": no peaks of its " + model::name_of(quantity) + " are followed");
 }
 
 record::Energy Structure::energy() const {
-  return record::energy_of(state(), parts_->assembly->dynamics);
+  return record::energy_of(state(), parts().assembly->dynamics);
 }
 
 const std::string& Structure::method() const {
-  return parts_->scene.integrator.name;
+  return parts().scene.integrator.name;
 }
 
 const linalg::Counters& Structure::counters() const {
-  return parts_->assembly->dynamics.counters();
+  return parts().assembly->dynamics.counters();
 }
 
 const time::RunReport& Structure::report() const {
-  return parts_->assembly->simulation.report();
+  return parts().assembly->simulation.report();
 }
 
 }  // namespace butee::embed

@@ -134,6 +134,8 @@ class BUTEE_EXPORT Structure {
   class Advance;
   void set_line(Index dof, const NodalForce::Line& line);
   explicit Structure(std::unique_ptr<Parts> parts);
+  /// Throws LogicError if the structure was moved from.
+  Parts& parts() const;
 
   std::unique_ptr<Parts> parts_;
 };

@@ -30,6 +30,33 @@ SparseMatrix built(Index n, std::vector<Eigen::Triplet<double>>& triplets) {
 
 }  // namespace
 
+std::string complaint_about(const ElementMatrices& matrices, std::span<const NodalDof> dofs, const DofTable& table) {
+  const auto n = static_cast<Index>(dofs.size());
+  if (n == 0) return "it adds matrices without DOFs";
+  std::vector<const Eigen::MatrixXd*> given = {&matrices.mass, &matrices.stiffness, &matrices.damping};
+  for (const Eigen::MatrixXd* matrix : {&matrices.gyroscopic, &matrices.rotating_damping})
+    if (matrix->size() > 0) given.push_back(matrix);
+  for (const Eigen::MatrixXd* matrix : given)
+    if (matrix->rows() != n || matrix->cols() != n)
+      return "it adds a matrix of " + std::to_string(matrix->rows()) + " x " + std::to_string(matrix->cols()) +
+             " for " + std::to_string(n) + " DOFs";
+  for (const Eigen::MatrixXd* matrix : given)
+    if (!matrix->allFinite())
+      return "its matrices have entries that are not finite: check its lengths, section and material, in SI units";
+  for (Index i = 0; i < n; ++i) {
+    const NodalDof dof = dofs[static_cast<std::size_t>(i)];
+    if (table.exists(dof)) continue;
+    // A lumped mass has inertia along all axes and claims only those that other elements use.
+    for (const Eigen::MatrixXd* matrix : {&matrices.stiffness, &matrices.damping})
+      if (!matrix->row(i).isZero(0.0) || !matrix->col(i).isZero(0.0))
+        return "it acts on " + table.name(dof) + ", which no element has claimed: its claim() must name all its DOFs";
+  }
+  if (!is_symmetric(matrices.mass)) return "its mass matrix is not symmetric";
+  if (matrices.gyroscopic.size() > 0 && !is_symmetric(matrices.gyroscopic, -1.0))
+    return "its gyroscopic matrix is not skew-symmetric: gyroscopic moments do no work";
+  return "";
+}
+
 SparseMatrix MatrixCollector::Entries::build(Index n) {
   return is_used_ ? built(n, triplets_) : SparseMatrix();
 }
@@ -45,42 +72,11 @@ void MatrixCollector::visit(std::span<const NodalDof> dofs, Visit entry) const {
   }
 }
 
-void MatrixCollector::check(std::span<const NodalDof> dofs, const ElementMatrices& matrices) const {
-  const auto n = static_cast<Index>(dofs.size());
-  if (n == 0) throw InputError("an element adds matrices without DOFs");
-  std::vector<const Eigen::MatrixXd*> given = {&matrices.mass, &matrices.stiffness, &matrices.damping};
-  for (const Eigen::MatrixXd* matrix : {&matrices.gyroscopic, &matrices.rotating_damping})
-    if (matrix->size() > 0) given.push_back(matrix);
-  for (const Eigen::MatrixXd* matrix : given)
-    if (matrix->rows() != n || matrix->cols() != n)
-      throw InputError("an element on " + dofs_.name(dofs.front()) + " adds a matrix of " +
-                       std::to_string(matrix->rows()) + " x " + std::to_string(matrix->cols()) + " for " +
-                       std::to_string(n) + " DOFs");
-  for (const Eigen::MatrixXd* matrix : given)
-    if (!matrix->allFinite())
-      throw InputError(
-          "an element on " + dofs_.name(dofs.front()) +
-          " adds a matrix with entries that are not finite: check its lengths, section and material, in SI "
-          "units");
-  for (Index i = 0; i < n; ++i) {
-    if (dofs_.exists(dofs[static_cast<std::size_t>(i)])) continue;
-    // A lumped mass has inertia along all axes and claims only those that other elements use.
-    for (const Eigen::MatrixXd* matrix : {&matrices.stiffness, &matrices.damping})
-      if (!matrix->row(i).isZero(0.0) || !matrix->col(i).isZero(0.0))
-        throw InputError("an element acts on " + dofs_.name(dofs[static_cast<std::size_t>(i)]) +
-                         ", which no element has claimed: its claim() must name all its DOFs");
-  }
-}
-
 void MatrixCollector::add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) {
-  check(dofs, matrices);
-  if (!is_symmetric(matrices.mass))
-    throw InputError("the mass matrix of an element on " + dofs_.name(dofs.front()) + " is not symmetric");
+  if (const std::string wrong = complaint_about(matrices, dofs, dofs_); !wrong.empty())
+    throw InputError("an element" + (dofs.empty() ? "" : " on " + dofs_.name(dofs.front())) + ": " + wrong);
   stiffness_is_symmetric_ = stiffness_is_symmetric_ && is_symmetric(matrices.stiffness);
   damping_is_symmetric_ = damping_is_symmetric_ && is_symmetric(matrices.damping);
-  if (matrices.gyroscopic.size() > 0 && !is_symmetric(matrices.gyroscopic, -1.0))
-    throw InputError("the gyroscopic matrix of an element on " + dofs_.name(dofs.front()) +
-                     " is not skew-symmetric: gyroscopic moments do no work");
   if (turns_) return add_turning(dofs, matrices);
   visit(dofs, [&](int row, int column, Index p, Index q) {
     add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q));

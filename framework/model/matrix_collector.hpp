@@ -6,8 +6,13 @@
 
 namespace butee::model {
 
+/// Returns why the matrices of an element on `dofs` cannot be assembled, or "": another size, entries that are not
+/// finite, stiffness or damping on DOFs that do not exist, a mass that is not symmetric, or gyroscopic moments that do
+/// work.
+std::string complaint_about(const ElementMatrices& matrices, std::span<const NodalDof> dofs, const DofTable& table);
+
 /// Collects M, K, D, G and W of elements, with one common sequence of places, so that all have the
-/// same pattern. Private to assemble().
+/// same pattern. Private to the framework.
 class MatrixCollector final : public MatrixSink {
  public:
   MatrixCollector(const DofTable& dofs, double rotating_damping) : dofs_(dofs), rotating_damping_(rotating_damping) {}
@@ -42,8 +47,6 @@ class MatrixCollector final : public MatrixSink {
 
   template <class Visit>
   void visit(std::span<const NodalDof> dofs, Visit entry) const;
-  /// Throws InputError for matrices of another size than `dofs`, and for stiffness or damping on DOFs that do not exist.
-  void check(std::span<const NodalDof> dofs, const ElementMatrices& matrices) const;
   void add_turning(std::span<const NodalDof> dofs, const ElementMatrices& matrices);
   void add_entry(int i, int j, double m, double k, double c, double g = 0.0, double w = 0.0) {
     dashpots_.add(mass_, i, j, c);

@@ -54,11 +54,23 @@ template <class Type>
 void require_names(const std::string& kind, const Type& type, const std::string& path) {
   if (type.name.empty()) throw RunError(path + ": registers a type of " + kind + " without a name");
   std::set<std::string> names;
+  std::vector<std::string> given = config::names_of(type.parameters);
+  given.push_back(type.name);
+  for (const std::string& name : given)
+    if (!name.empty() && !is_plain_name(name))
+      throw RunError(path + ": the " + kind + " \"" + printable(type.name) + "\" uses the name \"" + printable(name) +
+                     "\"; names are of letters, digits, _ and - only");
   for (const config::Parameter& parameter : type.parameters)
     if (parameter.name.empty() || !names.insert(parameter.name).second)
       throw RunError(
           path + ": the " + kind + " \"" + type.name + "\" declares " +
           (parameter.name.empty() ? "a parameter without a name" : "the parameter \"" + parameter.name + "\" twice"));
+  for (const config::Parameter& parameter : type.parameters)
+    for (const auto& [what, value] : {std::pair("default", &parameter.fallback),
+                                      std::pair("value to try first", &parameter.first_try)})
+      if (const std::string wrong = *value ? parameter.complaint(**value) : ""; !wrong.empty())
+        throw RunError(path + ": the " + kind + " \"" + type.name + "\" declares a " + what + " of the parameter \"" +
+                       parameter.name + "\" that it does not allow itself: " + wrong);
   const Reserved* reserved = reserved_for(kind);
   if (reserved == nullptr) return;
   if (std::find(reserved->types.begin(), reserved->types.end(), type.name) != reserved->types.end())
@@ -67,6 +79,17 @@ void require_names(const std::string& kind, const Type& type, const std::string&
     if (names.contains(key))
       throw RunError(path + ": the " + kind + " \"" + type.name + "\" declares the parameter \"" + key +
                      "\", a key that every [[" + kind + "]] has; rename it");
+}
+
+/// Throws RunError unless the limits and the order that a method declares are positive numbers.
+void require_limits(const IntegratorType& type, const std::string& path) {
+  for (const auto& [name, value, is_allowed] :
+       {std::tuple("stability_limit", type.stability_limit, type.stability_limit > 0.0),
+        std::tuple("damping_limit", type.damping_limit, type.damping_limit > 0.0),
+        std::tuple("order", type.order, type.order >= 0.0 && std::isfinite(type.order))})
+    if (!is_allowed)
+      throw RunError(path + ": the integrator \"" + type.name + "\" declares " + name + " = " + to_text(value) +
+                     "; it must be " + (std::string_view(name) == "order" ? "a number >= 0" : "> 0, or infinity"));
 }
 
 /// The type of that name in the module, which is loaded now.
@@ -218,6 +241,7 @@ void Catalogue::add(ModuleTypes found, const std::string& path) {
   next.add_types("format", std::move(found.formats), &ModuleTypes::formats, path, next.types_.formats);
   for (IntegratorType& type : found.integrators) {
     require_names("integrator", type, path);
+    require_limits(type, path);
     std::vector<std::string> names = type.aliases;
     names.push_back(type.name);
     for (const std::string& name : names)

@@ -47,11 +47,9 @@ void SceneReader::check_magnitudes() {
   const auto complain = [&](std::size_t element, const std::string& complaint) {
     diagnostics_.error(element_places_[element].first, element_places_[element].second, complaint);
   };
-  for (const std::size_t element : sums_->not_finite())
-    complain(element,
-             "its matrices have entries that are not finite: check its lengths, section and material, in SI units");
+  for (const auto& [element, complaint] : sums_->complaints()) complain(element, complaint);
   std::set<std::size_t> reported;
-  for (std::size_t i = 0; i < sums_->sums().size() && sums_->not_finite().empty(); ++i) {
+  for (std::size_t i = 0; i < sums_->sums().size() && sums_->complaints().empty(); ++i) {
     const ElementSums::Sum& sum = sums_->sums()[i];
     const model::NodalDof dof = dofs_->free()[i];
     const std::string place = dofs_->name(dof),
@@ -61,7 +59,8 @@ void SceneReader::check_magnitudes() {
       complain(sum.stiffest.element, "its stiffness of " + of_stiffness(sum.stiffest.value, dof.kind) + " on " + place +
                                          beside + " oscillates faster than " + to_short_text(kFastest) +
                                          " rad/s, the most that can be computed: check its values, in SI units");
-    if (const double rate = sum.damping / sum.mass; rate > kFastest && reported.insert(sum.most_damped.element).second)
+    if (const double rate = sum.damping / sum.mass;
+        rate > kFastestDecay && reported.insert(sum.most_damped.element).second)
       complain(sum.most_damped.element, "its damping of " +
                                             with_unit(sum.most_damped.value, dof.kind, "N s/m", "N m s/rad") + " on " +
                                             place + beside + " decays faster than " + to_short_text(kFastestDecay) +

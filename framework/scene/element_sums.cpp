@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "butee/model/matrix_collector.hpp"
+
 namespace butee::scene {
 
 ElementSums::ElementSums(const model::DofTable& dofs)
@@ -12,13 +14,11 @@ ElementSums::ElementSums(const model::DofTable& dofs)
 void ElementSums::add(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices) {
   // A stiffness below this part of the largest of its kind in the part, such as across an inclined bar, is rounding.
   constexpr double kRounding = 1e-10;
-  // Matrices of the wrong size are refused where the system is assembled.
-  const auto n = static_cast<Index>(dofs.size());
-  if (matrices.mass.rows() != n || matrices.stiffness.rows() != n || matrices.damping.rows() != n) return;
-  if (!matrices.mass.allFinite() || !matrices.stiffness.allFinite() || !matrices.damping.allFinite()) {
-    if (not_finite_.empty() || not_finite_.back() != element_) not_finite_.push_back(element_);
+  if (const std::string complaint = model::complaint_about(matrices, dofs, dofs_); !complaint.empty()) {
+    complaints_.emplace(element_, complaint);
     return;
   }
+  const auto n = static_cast<Index>(dofs.size());
   std::array<double, 2> largest{};
   for (Index i = 0; i < n; ++i) {
     double& of_kind = largest[is_rotation(dofs[static_cast<std::size_t>(i)].kind) ? 1 : 0];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "butee/model/element.hpp"
@@ -28,13 +30,13 @@ class ElementSums final : public model::MatrixSink {
 
   /// Returns the sums of all free DOFs, in the order of DofTable::free().
   const std::vector<Sum>& sums() const { return sums_; }
-  /// Elements with an entry that is not finite, ascending.
-  const std::vector<std::size_t>& not_finite() const { return not_finite_; }
+  /// Returns why elements cannot be assembled, by their numbers.
+  const std::map<std::size_t, std::string>& complaints() const { return complaints_; }
 
  private:
   const model::DofTable& dofs_;
   std::vector<Sum> sums_;
-  std::vector<std::size_t> not_finite_;
+  std::map<std::size_t, std::string> complaints_;
   std::size_t element_ = 0;
 };
 

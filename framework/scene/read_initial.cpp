@@ -21,6 +21,8 @@ constexpr double kSameTime = 1e-9;
 /// A DOF that a rigid rotation moves by less than this fraction of its largest displacement is not
 /// moved.
 constexpr double kUnmoved = 1e-12;
+/// The largest initial value: its square, an energy, must be a finite number.
+constexpr double kLargest = 1e100;
 
 /// True if a support that moves by itself stands elsewhere at t = 0 than at `t`.
 bool jumps_back(const std::vector<BaseMotion>& bases, double t) {
@@ -164,6 +166,10 @@ void SceneReader::read_initial_entry(const Value& entry, const std::string& path
     for (const NodeId node : *nodes) values.push_back({{node, *dof_named(p->text("dof"))}, p->number("value")});
   std::vector<NodalValue>& target = moves ? model_.initial_velocity : model_.initial_displacement;
   for (const NodalValue& value : values) {
+    if (!(std::abs(value.value) <= kLargest))
+      return p->complain(diagnostics_, rotates ? "rotation" : "value",
+                         "gives " + dofs_->name(value.dof) + " an initial " + key + " of " +
+                             to_short_text(value.value) + "; it must be at most " + to_short_text(kLargest));
     check_free(*p, "nodes", value.dof, "an initial value");
     const auto same = [&](const NodalValue& other) {
       return other.dof.kind == value.dof.kind &&

@@ -10,9 +10,14 @@
 namespace butee::study {
 namespace {
 
+/// The value rounded to 15 digits, so that 0.3 and 1e5 are these numbers.
 double value_in(const Axis::Range& range, double u) {
-  if (range.is_logarithmic) return std::exp(std::log(range.from) + u * (std::log(range.to) - std::log(range.from)));
-  return range.from + u * (range.to - range.from);
+  constexpr int kDigits = 15;
+  const double value =
+      range.is_logarithmic
+          ? std::pow(10.0, std::log10(range.from) + u * (std::log10(range.to) - std::log10(range.from)))
+          : range.from + u * (range.to - range.from);
+  return number_of(to_short_text(value, kDigits)).value_or(value);
 }
 
 [[noreturn]] void refuse_size(double points, std::int64_t most) {

@@ -85,6 +85,18 @@ plugin::Catalogue catalogue_of_false_claims() {
       {"circle", "", {}, [](const Parameters&, double, Diagnostics&) { return std::make_unique<Circle>(); }});
   plugin::Catalogue catalogue;
   catalogue.add(BUTEE_TEST_PLUGINS);
+  // The classical Runge-Kutta method is stable up to h omega = 2.83 and h c/m = 2.79.
+  const auto add_method = [&](const char* name, double stability, double damping) {
+    time::IntegratorType method = catalogue.load("rk4");
+    method.name = name;
+    method.aliases.clear();
+    method.stability_limit = stability;
+    method.damping_limit = damping;
+    types.integrators.push_back(std::move(method));
+  };
+  add_method("bold", 3.5, 2.785);
+  add_method("timid", 1.5, 2.785);
+  add_method("brakeless", 2.828, INFINITY);
   catalogue.add(std::move(types), "this test");
   return catalogue;
 }
@@ -98,7 +110,8 @@ TEST(SuiteOfOtherKinds, FindsFalseClaims) {
        {Case{"law", "square", "", "series"}, Case{"load", "sine", "", "parabolas"},
         Case{"load", "kink", "", "parabolas"}, Case{"load", "jump", "", "values"},
         Case{"element", "light", "node = \"a\"\n", "matrices"}, Case{"element", "soft", "node = \"a\"\n", "matrices"},
-        Case{"contact", "circle", "", "form"}}) {
+        Case{"contact", "circle", "", "form"}, Case{"integrator", "bold", "", "stability"},
+        Case{"integrator", "timid", "", "stability"}, Case{"integrator", "brakeless", "", "stability"}}) {
     bool is_refused = false;
     for (const conformance::Check& check : conformance::checks_of(one.kind))
       if (check.name == one.check) is_refused = !check.run({catalogue, one.kind, one.name, one.keys}).passed;

@@ -79,6 +79,13 @@ std::vector<Misuse> misuses() {
       {"until inf", [](Structure& s) { s.set_force(0, 0.0, 1.0, kInfinity); }, "set_force until = inf s"},
       {"steep", [](Structure& s) { s.set_force(0, 0.0, 1e99, std::nextafter(s.time(), 1.0)); }, "the slope of a force"},
       {"no snapshot", [](Structure& s) { s.restore({}); }, "the snapshot is of another structure"},
+      {"fewer forces",
+       [](Structure& s) {
+         Structure::Snapshot snapshot = s.snapshot();
+         snapshot.forces.clear();
+         s.restore(snapshot);
+       },
+       "the snapshot has 0 forces; the structure has 1"},
   };
   for (const double bad : {kNaN, kInfinity, -kInfinity, 1e300, -1e300}) {
     all.push_back({"x", [=](Structure& s) { s.set_motion(both(bad), both(0.0)); }, "a displacement is "});
@@ -147,6 +154,14 @@ TEST(Misuse, OfAnObserverIsRefused) {
   EXPECT_EQ(used.force(0), 0.0);
   EXPECT_TRUE(used.state().x == spared.state().x);
   EXPECT_THROW(used.follow_peaks("m", {model::Quantity::uz}), InputError);
+}
+
+TEST(Misuse, OfAStructureThatWasMovedFromIsRefused) {
+  Structure old = structure(scene(kAuto));
+  const Structure kept = std::move(old);
+  EXPECT_EQ(kept.size(), 2);
+  EXPECT_THROW(old.size(), LogicError);  // NOLINT(bugprone-use-after-move)
+  EXPECT_THROW(old.advance_to(1.0), LogicError);
 }
 
 /// advance_to() calls a function after each step. That function must not change the state; if it tries to, advance_to()

@@ -328,8 +328,18 @@ TEST(ModelBuilder, SaysInWhichCallAMistakeIs) {
     EXPECT_NE(std::string(error.what()).find("model in code:2: element[1].stiffness = -4"), std::string::npos)
         << error.what();
   }
-  EXPECT_THROW(model.set("element.x", {{"y", 1}}), LogicError);
-  EXPECT_THROW(model.add("integrator", {{"y", 1}}), LogicError);
+  const auto complaint_of = [](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const LogicError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint_of([&] { model.set("element.x", {{"y", 1}}); }),
+            "model in code:4: element.x: element is not a table, but an array");
+  EXPECT_EQ(complaint_of([&] { model.add("integrator", {{"y", 1}}); }),
+            "model in code:5: integrator is not a list, but a table; set() gives keys to a table");
 }
 
 /// m x'' = -k x - c x': the spring's force, and the opposite reaction of its support.

@@ -1,3 +1,4 @@
+#include <array>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -125,6 +126,36 @@ TEST(Modules, TypesAndParametersNeedNamesOfTheirOwn) {
   EXPECT_EQ(complaint_about("soft", {factor, factor}),
             "mine: the law \"soft\" declares the parameter \"factor\" twice");
   EXPECT_EQ(complaint_about("soft", {nameless}), "mine: the law \"soft\" declares a parameter without a name");
+  expect_mentions(complaint_about("soft", {factor.above(0.0).or_else(0.0)}),
+                  {"\"soft\" declares a default of the parameter \"factor\" that it does not allow itself: must be > 0"});
+  expect_mentions(complaint_about("soft", {factor.or_else(NAN)}), {"must be a finite number"});
+  expect_mentions(complaint_about("soft", {factor.at_most(1.0).try_first(2.0)}), {"declares a value to try first"});
+  expect_mentions(complaint_about("soft\n", {factor}), {"the law \"soft?\" uses the name \"soft?\"; names are of"});
+  expect_mentions(complaint_about("soft", {config::number("a b", "", "a")}), {"uses the name \"a b\""});
+}
+
+TEST(Modules, LimitsAndOrdersAreNumbers) {
+  const auto complaint_about = [](double stability, double damping, double order) -> std::string {
+    time::IntegratorType method;
+    method.name = "own";
+    method.stability_limit = stability;
+    method.damping_limit = damping;
+    method.order = order;
+    plugin::ModuleTypes types;
+    types.integrators = {method};
+    plugin::Catalogue catalogue;
+    try {
+      catalogue.add(std::move(types), "mine");
+      return "";
+    } catch (const RunError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(complaint_about(2.0, INFINITY, 2.0), "");
+  EXPECT_EQ(complaint_about(0.0, 2.0, 2.0),
+            "mine: the integrator \"own\" declares stability_limit = 0.0; it must be > 0, or infinity");
+  expect_mentions(complaint_about(2.0, NAN, 2.0), {"damping_limit = nan"});
+  expect_mentions(complaint_about(2.0, 2.0, INFINITY), {"order = inf", "a number >= 0"});
 }
 
 TEST(Modules, NamesAndKeysThatSceneTablesHaveThemselvesAreRefused) {
@@ -171,6 +202,48 @@ TEST(Modules, AnElementOnNodesOfAWrongElementIsNoFaultOfItsModule) {
     FAIL() << "was read";
   } catch (const InputError& error) {
     expect_mentions(error.what(), {"scene.toml:5: element[0].mass = -1.0: must be >= 0"});
+  }
+}
+
+/// Matrices that cannot be assembled are reported with the line of their element.
+TEST(Modules, WrongMatricesAreReportedWithTheElement) {
+  class Crooked final : public model::Element {
+   public:
+    explicit Crooked(model::NodeId node) : node_(node) {}
+    void claim(model::DofTable& dofs) const override {
+      for (const DofKind kind : {DofKind::uy, DofKind::rz}) dofs.claim({node_, kind}, true);
+    }
+    void assemble(model::MatrixSink& sink) const override {
+      model::ElementMatrices matrices(2);
+      matrices.mass << 1.0, 0.3, 0.2, 1.0;
+      sink.add(std::array{model::NodalDof{node_, DofKind::uy}, model::NodalDof{node_, DofKind::rz}}, matrices);
+    }
+
+   private:
+    model::NodeId node_;
+  };
+  plugin::ModuleTypes types;
+  model::ElementType crooked;
+  crooked.name = "crooked";
+  crooked.parameters = {config::text("node", "where it acts")};
+  crooked.nodes = [](const config::Parameters&, config::Diagnostics&) -> model::ElementType::Nodes {
+    return std::nullopt;
+  };
+  crooked.make = [](const config::Parameters& p, model::ElementContext& context) -> std::unique_ptr<model::Element> {
+    return std::make_unique<Crooked>(*context.node(p, "node"));
+  };
+  types.elements = {crooked};
+  plugin::Catalogue catalogue;
+  catalogue.add(std::move(types), "mine");
+  try {
+    (void)scene::read_scene(
+        config::parse_toml("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n"
+                           "[[element]]\ntype = \"crooked\"\nnode = \"m\"\n[integrator]\nend_time = 1.0\n",
+                           "scene.toml"),
+        catalogue);
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    expect_mentions(error.what(), {"scene.toml:6: element[1]: its mass matrix is not symmetric"});
   }
 }
 
