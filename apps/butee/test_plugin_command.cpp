@@ -1,8 +1,10 @@
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <unistd.h>
 
 #include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
 
 #include "commands.hpp"
 #include "installation.hpp"
@@ -49,7 +51,10 @@ Command add_test_plugin_command(CLI::App& program) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   app->add_option("--time-limit", arguments->time_limit, "time limit of each check; default 60")
-      ->check(CLI::PositiveNumber)
+      ->check([](const std::string& text) -> std::string {
+        const auto seconds = number_of(text);
+        return seconds && std::isfinite(*seconds) && *seconds > 0.0 ? "" : text + ": must be a number of seconds above 0";
+      })
       ->type_name("SECONDS");
   app->add_flag("--json", arguments->as_json, "print JSON");
   return {app, [arguments] { return test_plugin_command(*arguments); }};

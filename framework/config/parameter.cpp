@@ -19,6 +19,7 @@ Parameter declare(Parameter::Kind kind, std::string name, std::string unit, std:
 }
 
 std::string bounds_text(const Parameter& parameter) {
+  if (parameter.lower == parameter.upper) return " " + to_short_text(parameter.lower);
   std::string text;
   if (std::isfinite(parameter.lower)) text += (parameter.lower_open ? " > " : " >= ") + to_short_text(parameter.lower);
   if (std::isfinite(parameter.upper)) text += (text.empty() ? " <= " : " and <= ") + to_short_text(parameter.upper);

@@ -218,10 +218,24 @@ std::optional<SceneReader::ContactParts> SceneReader::contact_parts(const Parame
     if (!turning) return std::nullopt;
     parts.turning = *turning;
   }
+  warn_of_fixed_ends(p, parts);
   parts.gaps = *gaps;
   parts.damping = *damping;
   parts.friction = *friction;
   return parts;
+}
+
+void SceneReader::warn_of_fixed_ends(const Parameters& p, const ContactParts& parts) {
+  const auto all_fixed = [&](const std::vector<NodeId>& nodes) {
+    return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) {
+      return std::all_of(parts.directions.begin(), parts.directions.end(),
+                         [&](DofKind kind) { return dofs_->exists({node, kind}) && dofs_->is_fixed({node, kind}); });
+    });
+  };
+  if (parts.a.empty() || !all_fixed(parts.a) || !all_fixed(parts.b) || root_.table()->find("base") != nullptr) return;
+  const char* key = p.has("between") ? "between" : "nodes";
+  diagnostics_.warning(p.key(key), p.value(key).at,
+                       "names only nodes that a [[support]] holds there, so that this contact can never act");
 }
 
 bool SceneReader::add_contacts(const Parameters& p, const ContactKind& kind, const ContactParts& parts) {

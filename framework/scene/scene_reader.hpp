@@ -61,6 +61,8 @@ class SceneReader {
   std::optional<std::vector<DofKind>> contact_directions(const config::Parameters& parameters, const ContactKind& kind);
   std::optional<ContactParts> contact_parts(const config::Parameters& parameters, const ContactKind& kind,
                                             const std::string& path, const config::Value& entry);
+  /// Warns of a contact none of whose ends can move.
+  void warn_of_fixed_ends(const config::Parameters& parameters, const ContactParts& parts);
   /// False after an error, as add_obstacle().
   bool add_contacts(const config::Parameters& parameters, const ContactKind& kind, const ContactParts& parts);
   bool add_obstacle(const config::Parameters& parameters, const ContactKind& kind, const ContactParts& parts,

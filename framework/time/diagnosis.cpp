@@ -19,6 +19,8 @@ constexpr Index kDense = 100;
 constexpr double kSafe = 0.9;
 /// A larger force is taken to cause overflow.
 constexpr double kHuge = 1e150;
+/// Motion below it does not grow beyond numbers in one step.
+constexpr double kModerate = 1e50;
 
 /// A method whose limit of h c/m without a spring is half that of h omega or less takes damping at the step before, as
 /// central differences do: stable for (h omega/stability)^2 + h c/damping <= 1, by the equations of one mode.
@@ -118,6 +120,13 @@ std::string overflowing_load(dynamics::Dynamics& dynamics, double t) {
 std::string overflow(dynamics::Dynamics& dynamics, const MethodLimits& limits, const State& from, const Step& step) {
   for (const double t : {from.t, 0.5 * (from.t + step.t_end), step.t_end})
     if (const std::string load = overflowing_load(dynamics, t); !load.empty()) return load;
+  const auto critical = critical_steps(dynamics, limits);
+  const bool is_stable = !critical || step.h <= critical->closed;
+  if (const double x = from.x.lpNorm<Eigen::Infinity>(), v = from.v.lpNorm<Eigen::Infinity>();
+      is_stable && std::max(x, v) < kModerate)
+    return "the solution is no longer finite, although displacements were at most " + to_short_text(x) +
+           " and velocities at most " + to_short_text(v) +
+           " at the step before: the method, or a law, load or element of a module, gives a value that is not a number";
   const std::string what =
       "the solution is no longer finite; it moves fastest in " + fastest_dof(dynamics, from) + ". ";
   if (limits.keeps_tolerance)

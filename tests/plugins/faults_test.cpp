@@ -30,7 +30,7 @@ struct Case {
 /// However a method fails after its fifth step, earlier rows are kept and the summary states the failure.
 TEST(FaultyModules, AMethodThatBreaksInAStepFailsTheRun) {
   for (const Case& one :
-       {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "no longer finite"},
+       {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "gives a value that is not a number"},
         Case{"goes_back", "a step ends where it was to end"}, Case{"throws_a_number", "not a std::exception"},
         Case{"loses_a_vector", "a step leaves the sizes"}}) {
     SCOPED_TRACE(one.method);

@@ -98,7 +98,7 @@ TEST_F(Program, InstructionSetsDifferInLastDigitsAlone) {
     const Outcome outcome = run_program(
         {"run", std::string(BUTEE_TEST_MODELS) + "/beam1.toml", "-o", name, "-q", "--set", "integrator.type=NMM1",
          "--set", "integrator.end_time=0.02", "--set", "integrator.time_step=5e-5", "--set", "contact[0].gap=1e-4"},
-        folder_.path(), {"BUTEE_TARGET=" + name});
+        folder_.path(), {std::string("BUTEE_TARGET=").append(name)});
     ASSERT_EQ(outcome.status, 0) << name << outcome.errors;
     const CsvTable history(folder_.file(name + "/history.csv"));
     const std::vector<double> u = history.column(history.header().at(1));
