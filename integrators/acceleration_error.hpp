@@ -14,9 +14,19 @@ namespace butee::integrators {
 /// d (0 if s is not known), s and a_n.
 class AccelerationError {
  public:
-  /// `kink`, `contact_change`: as in LocalErrorControl::Orders.
-  AccelerationError(dynamics::Dynamics& dynamics, const Goal& goal, double kink, double contact_change = 10.0)
-      : control_(dynamics, goal, {3.0, 2.0, kConstant, contact_change, kink}, LocalErrorControl::Steps::geometric) {}
+  /// `kink`, `contact_change`, `stable_turn`, `stable_decay`: as in LocalErrorControl::Orders.
+  AccelerationError(dynamics::Dynamics& dynamics, const Goal& goal, double kink, double contact_change = 10.0,
+                    double stable_turn = std::numeric_limits<double>::infinity(),
+                    double stable_decay = std::numeric_limits<double>::infinity())
+      : control_(dynamics, goal,
+                 {.estimate = 3.0,
+                  .method = 2.0,
+                  .constant = kConstant,
+                  .contact_change = contact_change,
+                  .kink = kink,
+                  .stable_turn = stable_turn,
+                  .stable_decay = stable_decay},
+                 LocalErrorControl::Steps::geometric) {}
 
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }

@@ -79,6 +79,25 @@ bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_
   return true;
 }
 
+/// True if a load has one value throughout a run.
+bool is_constant(const model::TimeFunction& load, double end_time) {
+  if (const auto harmonic = load.harmonic()) return harmonic->amplitude == 0.0 || harmonic->angular_frequency == 0.0;
+  // A parabola with three equal values is a constant.
+  return load.is_piecewise_parabolic() && load.discontinuities().empty() && load.value(0.0) == load.value(end_time) &&
+         load.value(0.0) == load.value(0.5 * end_time);
+}
+
+/// True if the structure starts in its static position and nothing moves it away: steps may have any length, but those
+/// of methods that follow closed stops have the periods of these.
+bool stays_static(dynamics::Dynamics& dynamics, double end_time) {
+  const model::System& system = dynamics.system();
+  const model::Model* model = system.model;
+  return dynamics.stop_count() > 0 && model != nullptr && model->starts_static && model->initial_velocity.empty() &&
+         model->bases.empty() && system.rotation == nullptr && system.obstacles.empty() &&
+         std::all_of(system.loads.begin(), system.loads.end(),
+                     [&](const model::FreeLoad& load) { return is_constant(*load.in_time, end_time); });
+}
+
 /// True if the force of a stop jumps in the middle of its gap.
 bool has_jump(dynamics::Dynamics& dynamics) {
   const dynamics::ElasticStops& contact = dynamics.stops();
@@ -248,6 +267,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const std::string size = std::to_string(n) + (n == 1 ? " DOF" : " DOFs");
   if (suits_piecewise(dynamics, tolerance, end_time))
     return {Method::piecewise, size + " with linear stops, so that the motion between impacts is known in closed form"};
+  if (stays_static(dynamics, end_time))
+    return {Method::rodas4, "the structure stays in its static position, where steps of any length are right"};
   const FastestRates rates = fastest_rates(dynamics);
   const bool is_singular = dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles());
   // Where a slope is infinite, collocation takes more steps than explicit methods if there is no fast motion beside it.
@@ -309,7 +330,7 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   const FastestRates rates = fastest_rates(dynamics);
   const bool is_damped =
       choice.method == Choice::Method::rodas4 && (rates.damping > rates.open || creeps(rates)) && !has_jump(dynamics);
-  if (high.is_wanted() && takes_steps && !is_damped) {
+  if (high.is_wanted() && takes_steps && !is_damped && !stays_static(dynamics, end_time)) {
     if ((integrator = high.exact()) != nullptr)
       choice.method = Choice::Method::exact;
     else if (choice.method == Choice::Method::rodas4 && (integrator = high.extrapolation8()) != nullptr)

@@ -5,11 +5,13 @@
 namespace butee::integrators {
 
 /// Measured in tests/conformance/error_constant_test.cpp.
-constexpr double kKink = 0.125;
+constexpr double kKink = 0.125, kContactChange = 10.0;
+/// The largest h omega and h c/m.
+constexpr double kStableTurn = 2.0, kStableDecay = 1.0;
 
 CentralDifferences::CentralDifferences(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics) {
-  if (goal) control_.emplace(dynamics, *goal, kKink);
+  if (goal) control_.emplace(dynamics, *goal, kKink, kContactChange, kStableTurn, kStableDecay);
 }
 
 void CentralDifferences::do_start(time::State& state) {
@@ -39,8 +41,8 @@ time::IntegratorType type_of(bool is_adaptive) {
                                  : "central differences, explicit, fixed steps",
           .parameters = std::move(parameters),
           .order = 2.0,
-          .stability_limit = 2.0,
-          .damping_limit = 1.0,
+          .stability_limit = kStableTurn,
+          .damping_limit = kStableDecay,
           .fixed_step = !is_adaptive,
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,

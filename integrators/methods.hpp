@@ -15,7 +15,7 @@ inline constexpr double kRungeKutta4DampingLimit = 2.7852935634052818;
 
 /// Options of Newton's iteration for methods without parameters for it: convergence to rounding, as
 /// the local error estimates require.
-inline constexpr NewtonOptions kNewton = {1e-11, 1e-9, 40, false, false};
+inline constexpr NewtonOptions kNewton = {1e-11, 1e-9, 40, false, false, false};
 
 time::IntegratorType auto_type();
 time::IntegratorType bathe_type();

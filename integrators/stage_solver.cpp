@@ -51,7 +51,9 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
     }
     if (first || displacement_factor * last.correction <= options_.increment_tolerance * last.x) {
       const double residual = balance.residual();
-      if (residual <= options_.residual_tolerance * scale || (!first && is_rounding(x, v, a, residual))) return report;
+      const bool is_small = residual <= options_.residual_tolerance * scale;
+      if (is_small && (!first || options_.takes_guess)) return report;
+      if ((is_small || !first) && is_rounding(x, v, a, residual)) return report;
     }
     if (report.newton_iterations == options_.max_iterations) break;
     if (!first && has_stops) contact(stop_displacement_, true, stop_force_, stop_tangent_);

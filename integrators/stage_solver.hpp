@@ -10,6 +10,9 @@ struct NewtonOptions {
   int max_iterations;             ///< i_max, the largest number of linear solves
   bool keep_failures = false;     ///< continue if the iteration did not converge
   bool checks_linear_too = true;  ///< check the residual after the solve also without stops
+  /// True: a guess whose residual meets residual_tolerance is the solution. False: only one whose residual is rounding;
+  /// otherwise a structure at rest drifts by the acceleration that the tolerance lets pass.
+  bool takes_guess = true;
 };
 
 /// Solves the equations of motion of one stage of an implicit method by Newton's iteration,

@@ -53,7 +53,8 @@ Command add_test_plugin_command(CLI::App& program) {
   app->add_option("--time-limit", arguments->time_limit, "time limit of each check; default 60")
       ->check([](const std::string& text) -> std::string {
         const auto seconds = number_of(text);
-        return seconds && std::isfinite(*seconds) && *seconds > 0.0 ? "" : text + ": must be a number of seconds above 0";
+        return seconds && std::isfinite(*seconds) && *seconds > 0.0 ? ""
+                                                                    : text + ": must be a number of seconds above 0";
       })
       ->type_name("SECONDS");
   app->add_flag("--json", arguments->as_json, "print JSON");

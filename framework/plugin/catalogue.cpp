@@ -66,8 +66,8 @@ void require_names(const std::string& kind, const Type& type, const std::string&
           path + ": the " + kind + " \"" + type.name + "\" declares " +
           (parameter.name.empty() ? "a parameter without a name" : "the parameter \"" + parameter.name + "\" twice"));
   for (const config::Parameter& parameter : type.parameters)
-    for (const auto& [what, value] : {std::pair("default", &parameter.fallback),
-                                      std::pair("value to try first", &parameter.first_try)})
+    for (const auto& [what, value] :
+         {std::pair("default", &parameter.fallback), std::pair("value to try first", &parameter.first_try)})
       if (const std::string wrong = *value ? parameter.complaint(**value) : ""; !wrong.empty())
         throw RunError(path + ": the " + kind + " \"" + type.name + "\" declares a " + what + " of the parameter \"" +
                        parameter.name + "\" that it does not allow itself: " + wrong);

@@ -228,8 +228,9 @@ std::optional<SceneReader::ContactParts> SceneReader::contact_parts(const Parame
 void SceneReader::warn_of_fixed_ends(const Parameters& p, const ContactParts& parts) {
   const auto all_fixed = [&](const std::vector<NodeId>& nodes) {
     return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) {
-      return std::all_of(parts.directions.begin(), parts.directions.end(),
-                         [&](DofKind kind) { return dofs_->exists({node, kind}) && dofs_->is_fixed({node, kind}); });
+      return std::all_of(parts.directions.begin(), parts.directions.end(), [&](DofKind kind) {
+        return dofs_->exists({node, kind}) && dofs_->is_fixed({node, kind});
+      });
     });
   };
   if (parts.a.empty() || !all_fixed(parts.a) || !all_fixed(parts.b) || root_.table()->find("base") != nullptr) return;

@@ -25,7 +25,8 @@ ContactError::ContactError(const model::System& system, const dynamics::ModalSys
       accounts_(account_goal(goal, lowest_frequency(modal)), static_cast<Index>(contacts.size())),
       speeds_(system, modal),
       modes_(modal, contacts, bounds.gaps(), speeds_, account_goal(goal, lowest_frequency(modal))),
-      missed_(modal, contacts, speeds_) {}
+      missed_(modal, contacts, speeds_),
+      rounding_(Eigen::ArrayXd::Zero(modal.stop_count())) {}
 
 void ContactError::start(double t, const double* q, const double* w, double* memory) const {
   accounts_.start(t, memory);
@@ -41,6 +42,8 @@ void ContactError::load(double t, const double* memory, const ModalState& state)
   memory += accounts_.memory_size();
   speeds_.load(memory);
   speeds_.raise(state.v);
+  for (Index i = 0; i < rounding_.size(); ++i)
+    rounding_[i] = kRoundingOfPaths * modal_.stop_shapes().of(i).array().abs().matrix().dot(state.q.abs().matrix());
   missed_.begin();
   modes_.begin(t, memory + speeds_.memory_size(), state);
 }
@@ -62,11 +65,11 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
   const ContactPaths& paths = iteration_.paths();
   double largest = 0.0;
   for (const Index i : step.iterated) {
-    const double quartic = paths.quartic()[i];
+    const double quartic = paths.quartic()[i], beyond = std::max(0.0, std::abs(quartic) - rounding_[i]);
     const bool is_near = bounds_.is_near(i);
-    double error = is_near ? std::abs(quartic) : residual_.jump_error(flow, i, quartic, paths.motion().end[i]);
+    double error = is_near ? beyond : residual_.jump_error(flow, i, quartic, paths.motion().end[i]);
     if (is_near && iteration_.is_touched(i)) {
-      error = of_touched(flow, i, step.t_end, error, displacement);
+      error = of_touched(flow, i, step.t_end, beyond, displacement);
     } else if (const double depth = paths.excess()[i] + kPathError * std::abs(quartic); is_near && depth > 0.0) {
       const double impulse = iteration_.stiff(flow, i) * depth;
       const ContactScale scale = scales_.of(i, paths.reached(i), displacement);

@@ -44,6 +44,7 @@ class ContactError {
   double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed);
 
  private:
+  /// `quartic`: the size of the path's quartic coefficient beyond rounding, m.
   double of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic, double displacement);
   /// Indicator 10, relative to its bound.
   double of_missed(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement);
@@ -61,7 +62,8 @@ class ContactError {
   ComponentSpeeds speeds_;
   UnresolvedModes modes_;
   MissedForces missed_;
-  Eigen::ArrayXd hidden_;  ///< speeds of the modes that a jump would cause and the projection hides
+  Eigen::ArrayXd rounding_;  ///< of the quartic coefficients of paths, m
+  Eigen::ArrayXd hidden_;    ///< speeds of the modes that a jump would cause and the projection hides
   std::vector<std::pair<Index, double>>
       changes_;  ///< stops that change or stay closed in the step, and their speed errors
 };

@@ -83,8 +83,15 @@ void UnresolvedModes::find_rates(const Instant& at) {
     if (closed_[j] != 0.0)
       amplitudes_ += modal_.stop_shapes().of(j).array() * contacts_[static_cast<std::size_t>(j)].force_at(at.w[j]);
   amplitudes_ = (frequencies > 0.0).select((at.v.square() + (amplitudes_ / frequencies).square()).sqrt(), 0.0);
-  // In a static position fast modes vibrate by the rounding of the displacements.
-  amplitudes_ = (amplitudes_ > kRoundingOfModes * at.q.matrix().norm() * frequencies).select(amplitudes_, 0.0);
+  // In a static position modes vibrate by the rounding of the displacements and of the forces of closed stops.
+  ArrayXd& rounding = rise_;
+  rounding = at.q.matrix().norm() * squares_;
+  for (Index j = 0; j < modal_.stop_count(); ++j)
+    if (closed_[j] != 0.0) {
+      const auto shape = modal_.stop_shapes().of(j).array().abs();
+      rounding += contacts_[static_cast<std::size_t>(j)].tangent_at(at.w[j]) * (shape * at.q.abs()).sum() * shape;
+    }
+  amplitudes_ = (amplitudes_ * frequencies > kRoundingOfModes * rounding).select(amplitudes_, 0.0);
   rise_.setZero(modal_.size());
   for (Index j = 0; j < modal_.stop_count(); ++j)
     if (closed_[j] != 0.0 && was_closed_[j] != 0.0)

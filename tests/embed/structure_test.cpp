@@ -336,9 +336,13 @@ TEST(ModelBuilder, SaysInWhichCallAMistakeIs) {
     }
     return "";
   };
-  EXPECT_EQ(complaint_of([&] { model.set("element.x", {{"y", 1}}); }),
+  EXPECT_EQ(complaint_of([&] {
+              model.set("element.x", {{"y", 1}});
+            }),
             "model in code:4: element.x: element is not a table, but an array");
-  EXPECT_EQ(complaint_of([&] { model.add("integrator", {{"y", 1}}); }),
+  EXPECT_EQ(complaint_of([&] {
+              model.add("integrator", {{"y", 1}});
+            }),
             "model in code:5: integrator is not a list, but a table; set() gives keys to a table");
 }
 

@@ -84,7 +84,8 @@ std::vector<BadScene> bad_load_scenes() {
        {"initial.velocity[1].nodes = \"rotor\": gives u of rotor a second initial velocity"}},
       {"initial value beyond numbers",
        {initial("velocity = [{ nodes = \"rotor\", value = 1e300 }] #!")},
-       {"initial.velocity[0].value = 1e+300: gives u of rotor an initial velocity of 1e+300; it must be at most 1e+100"}},
+       {"initial.velocity[0].value = 1e+300: gives u of rotor an initial velocity of 1e+300; it must be at most "
+        "1e+100"}},
       {"initial value missing",
        {initial("velocity = [{ nodes = \"rotor\" }] #!")},
        {"initial.velocity[0].value: missing; give the value (number, m/s)"}},

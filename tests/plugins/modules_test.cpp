@@ -126,8 +126,9 @@ TEST(Modules, TypesAndParametersNeedNamesOfTheirOwn) {
   EXPECT_EQ(complaint_about("soft", {factor, factor}),
             "mine: the law \"soft\" declares the parameter \"factor\" twice");
   EXPECT_EQ(complaint_about("soft", {nameless}), "mine: the law \"soft\" declares a parameter without a name");
-  expect_mentions(complaint_about("soft", {factor.above(0.0).or_else(0.0)}),
-                  {"\"soft\" declares a default of the parameter \"factor\" that it does not allow itself: must be > 0"});
+  expect_mentions(
+      complaint_about("soft", {factor.above(0.0).or_else(0.0)}),
+      {"\"soft\" declares a default of the parameter \"factor\" that it does not allow itself: must be > 0"});
   expect_mentions(complaint_about("soft", {factor.or_else(NAN)}), {"must be a finite number"});
   expect_mentions(complaint_about("soft", {factor.at_most(1.0).try_first(2.0)}), {"declares a value to try first"});
   expect_mentions(complaint_about("soft\n", {factor}), {"the law \"soft?\" uses the name \"soft?\"; names are of"});
