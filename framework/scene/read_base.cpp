@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "butee/scene/scene_reader.hpp"
 
@@ -168,21 +169,42 @@ bool SceneReader::can_be_still(const Value& given) {
   if (model_.damping.is_modal())
     return refuse("modal damping requires motion relative to one base and cannot be combined with " + where +
                   "; give mass_proportional and stiffness_proportional");
-  const auto check_pairs = [&](const auto& group, const std::vector<DofKind>& along) {
-    if (group.b.empty()) return true;
+  // What a base moves is no DOF, and contacts take its displacement as 0.
+  std::set<NodeId> idle;
+  const auto check_contacts = [&](const auto& group, const std::vector<DofKind>& along) {
     for (const auto* side : {&group.a, &group.b})
-      for (const NodeId node : *side)
-        for (const DofKind kind : along)
-          if (moves_with_base(model_, *dofs_, {node, kind}))
-            return refuse("moves " + model_.nodes.name(node) + ", a body of a contact between two bodies; with " +
-                          where + ", both bodies need a free " + name_of(kind) +
-                          ": hold the moved one by a stiff spring instead of a support");
+      for (const NodeId node : *side) {
+        const auto moved = std::find_if(along.begin(), along.end(), [&](DofKind kind) {
+          return moves_with_base(model_, *dofs_, {node, kind});
+        });
+        if (moved == along.end()) continue;
+        const std::string begin = "moves " + model_.nodes.name(node) + " along " + name_of(*moved);
+        if (!group.b.empty())
+          return refuse(begin + ", a body of a contact between two bodies; with " + where +
+                        ", both bodies need a free " + name_of(*moved) +
+                        ": hold the moved one by a stiff spring instead of a support");
+        const auto other = std::find_if(along.begin(), along.end(), [&](DofKind kind) {
+          return dofs_->exists({node, kind}) && !dofs_->is_fixed({node, kind});
+        });
+        if (other != along.end())
+          return refuse(begin + ", where a contact to ground also acts along " + name_of(*other) + "; with " + where +
+                        ", such a node needs a free " + name_of(*moved) +
+                        ": hold it by a stiff spring to a moved node instead of a support");
+        idle.insert(node);
+      }
     return true;
   };
   for (const StopGroup& group : model_.stops)
-    if (!check_pairs(group, {group.dof})) return false;
+    if (!check_contacts(group, {group.dof})) return false;
   for (const ObstacleGroup& group : model_.obstacles)
-    if (!check_pairs(group, group.directions)) return false;
+    if (!check_contacts(group, group.directions)) return false;
+  if (!idle.empty())
+    diagnostics_.warning("base", given.at,
+                         "moves " + model_.nodes.name(*idle.begin()) +
+                             (idle.size() > 1 ? " and " + std::to_string(idle.size() - 1) + " more" : "") +
+                             ", where contacts to ground act: with " + where +
+                             " they are left out there, in contact forces and reactions; name only nodes without such "
+                             "a support in [[contact]]");
   if (const auto node = turning_support(model_, *dofs_))
     return refuse("moves " + model_.nodes.name(*node) +
                   ", where a part that turns is supported and has gyroscopic effects or rotating damping; move the "

@@ -66,7 +66,7 @@ void print_modal_damping(const model::System& system) {
 std::vector<std::string> skipped(const scene::Scene& session, const model::System& system) {
   std::vector<std::string> lines;
   if (system.skipped_stops > 0)
-    lines.push_back(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they can never act");
+    lines.push_back(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they are left out");
   if (system.skipped_loads > 0)
     lines.push_back(std::to_string(system.skipped_loads) +
                     " loads that are zero at all times or act only on fixed DOFs");

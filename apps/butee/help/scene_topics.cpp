@@ -109,7 +109,8 @@ only those that an element uses. Supports, loads, springs, stops, initial values
              uz_abs ...) are those in space. Stops to ground move with the base; frame = "space" in every [[contact]] to
              ground keeps them where they are. Several [[base]] add up.
   [[base]] nodes = [...]: supports that move independently; each entry defines one motion. u is then measured in space, and
-             the ground of springs and stops stands still; [initial] is the start in space.
+             the ground of springs and stops stands still; [initial] is the start in space. Contacts to ground do
+             not act on what a moved support holds, which is warned of.
 
 Probes of forces, along and about the own axes of a beam: N (with a preload in N), Vy, Vz, T, My, Mz are the force and
 the moment that the side of larger x exerts on the side of smaller x; V = Vy and M = Mz. My = -E I d2w/dx2.
