@@ -19,8 +19,10 @@ constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 std::vector<double> scales_of(const Histories& histories) {
   constexpr double kLeastOfKind = 1e-3;
   std::vector<double> scales;
-  std::array<double, 2> largest = histories.largest_of_kind;
-  const auto kind = [&](std::size_t i) { return i < histories.rotations.size() && histories.rotations[i] ? 1U : 0U; };
+  std::array<double, 3> largest = histories.largest_of_kind;
+  const auto kind = [&](std::size_t i) {
+    return i < histories.kinds.size() ? histories.kinds[i] : Histories::displacement;
+  };
   for (std::size_t i = 0; i < histories.values.size(); ++i) {
     double peak = 0.0;
     for (const double value : histories.values[i]) peak = std::max(peak, std::abs(value));

@@ -38,11 +38,15 @@ struct Trust {
 
 /// Displacements and rotations of the probes at the output times.
 struct Histories {
+  /// Each is compared with others of its kind. A moving base makes two kinds of displacements: those of the equations
+  /// of motion, and those in the other frame.
+  enum Kind : std::size_t { displacement, rotation, other_displacement };
+
   std::vector<double> times;                ///< s
   std::vector<std::vector<double>> values;  ///< one for each displacement, m, and rotation, rad
-  std::vector<bool> rotations{};            ///< which of them are rotations; none if empty
-  /// The largest displacement, m, and rotation, rad, of the whole structure; 0 where only `values` are known.
-  std::array<double, 2> largest_of_kind{};
+  std::vector<Kind> kinds{};                ///< of each of them; displacements if empty
+  /// The largest of each kind in the whole structure, m or rad; 0 where only `values` are known.
+  std::array<double, 3> largest_of_kind{};
 };
 
 /// The runs of one scene on which a judgement is based. Missing runs have no times.

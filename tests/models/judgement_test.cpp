@@ -11,7 +11,7 @@ namespace butee::test::judgement_test {
 namespace {
 
 record::Histories two_histories(double large, double small) {
-  return {{0.0, 1.0}, {{large, large}, {small, small}}, {false, true}};
+  return {{0.0, 1.0}, {{large, large}, {small, small}}, {record::Histories::displacement, record::Histories::rotation}};
 }
 
 /// Every displacement and rotation is compared with its own peak, but at least a thousandth of the largest of its kind.
@@ -20,7 +20,7 @@ TEST(Judgement, IsRelativeToThePeakOfEachProbe) {
   runs.run = two_histories(1.0, 1e-5);
   runs.tightened = two_histories(1.0, 1.1e-5);
   EXPECT_NEAR(record::judge(runs, 0.01).end_bound, 10.0 * 0.1, 1e-9);
-  runs.run.rotations = runs.tightened.rotations = {false, false};
+  runs.run.kinds = runs.tightened.kinds = {record::Histories::displacement, record::Histories::displacement};
   EXPECT_NEAR(record::judge(runs, 0.01).end_bound, 10.0 * 1e-3, 1e-9);
 }
 

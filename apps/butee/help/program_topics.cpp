@@ -33,6 +33,7 @@ every rotation and their velocities:
 
   scale S     the largest value of the component so far, at least a thousandth of the largest of its kind in the run
   error e     the largest |error|/S of all components
+              (beside a moving base: of the motion relative to it; of that in space with frame = "space" or nodes)
   growth G    the largest e/tolerance caused by a disturbance of the size of the tolerance at any earlier time
 
   e <= 10 tolerance max(1, G) at every output of a run of end_time.

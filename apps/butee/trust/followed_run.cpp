@@ -10,6 +10,7 @@
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
+#include <butee/model/base_motion.hpp>
 #include <butee/record/contact_recorder.hpp>
 #include <butee/record/impacts.hpp>
 #include <butee/record/output_times.hpp>
@@ -37,11 +38,13 @@ constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e6
 struct Followed {
   std::string label;
   model::NodeId node;
-  model::Quantity quantity;  ///< in space if the scene's motion is
+  model::Quantity quantity;
   DofKind kind;
+  bool is_in_other_frame;  ///< beside a moving base, not that of the equations of motion
 };
 
-/// Those that the quantities of a probe belong to; all that its node has if it asks for none.
+/// Those that the quantities of a probe belong to, relative to the base or in space; all that its node has, in the
+/// frame of the equations of motion, if it asks for none.
 std::vector<Followed> followed_by_probes(const scene::Scene& session, const model::System& system) {
   using model::Quantity;
   constexpr std::array<Quantity, kDofKinds> kRelative = {Quantity::ux, Quantity::u,  Quantity::uz,
@@ -51,19 +54,24 @@ std::vector<Followed> followed_by_probes(const scene::Scene& session, const mode
   const bool in_space = session.model.base_frame == model::BaseFrame::still;
   std::vector<Followed> all;
   for (const model::ProbeRequest& probe : session.output.probes) {
-    const auto follow = [&](const auto& wanted) {
-      const std::size_t before = all.size();
-      for (const DofKind kind : kAllDofKinds)
-        if (system.dofs.index({probe.node, kind}) >= 0 && wanted(kind))
-          all.push_back(
-              {probe.label, probe.node, (in_space ? kInSpace : kRelative)[static_cast<std::size_t>(kind)], kind});
-      return all.size() > before;
+    const auto follow = [&](DofKind kind, bool absolute) {
+      const Quantity quantity = (absolute ? kInSpace : kRelative)[static_cast<std::size_t>(kind)];
+      if (system.dofs.index({probe.node, kind}) >= 0)
+        all.push_back({probe.label, probe.node, quantity, kind,
+                       record::Probes::has_base_share(&session.model, system.dofs, probe.node, quantity)});
     };
-    const auto is_asked = [&](DofKind kind) {
-      return std::any_of(probe.quantities.begin(), probe.quantities.end(),
-                         [&](model::Quantity quantity) { return model::kind_of(quantity) == kind; });
+    const auto is_asked = [&](DofKind kind, bool absolute) {
+      return std::any_of(probe.quantities.begin(), probe.quantities.end(), [&](Quantity quantity) {
+        const bool is_motion = model::source_of(quantity) == model::Source::motion;
+        return model::kind_of(quantity) == kind && (is_motion ? model::is_absolute(quantity) : in_space) == absolute;
+      });
     };
-    if (!follow(is_asked)) follow([](DofKind) { return true; });
+    const std::size_t before = all.size();
+    for (const DofKind kind : kAllDofKinds)
+      for (const bool absolute : {false, true})
+        if (is_asked(kind, absolute)) follow(kind, absolute);
+    if (all.size() > before) continue;
+    for (const DofKind kind : kAllDofKinds) follow(kind, in_space);
   }
   return all;
 }
@@ -85,8 +93,15 @@ class Follower final : public time::Observer {
         rows_(session.output.interval, session.output.every, session.integrator.options.end_time) {
     to_.histories.values.resize(row_.size());
     to_.histories.times = compared_times(session);
-    for (const Followed& one : followed) to_.histories.rotations.push_back(is_rotation(one.kind));
-    for (const model::NodalDof& dof : dynamics.system().dofs.free()) is_rotation_.push_back(is_rotation(dof.kind));
+    for (const Followed& one : followed) to_.histories.kinds.push_back(kind_of(one.kind, one.is_in_other_frame));
+    const bool has_other =
+        std::any_of(followed.begin(), followed.end(), [](const Followed& one) { return one.is_in_other_frame; });
+    const bool in_space = session.model.base_frame == model::BaseFrame::still;
+    const model::DofTable& dofs = dynamics.system().dofs;
+    for (const model::NodalDof& dof : dofs.free()) {
+      kinds_.push_back(kind_of(dof.kind, false));
+      if (has_other) to_other_frame_.push_back(base_shares(session.model, dofs, dof, 0, !in_space));
+    }
     if (!with_states) return;
     to_.state_times = state_times(session, dynamics.size());
     to_.x.resize(dynamics.size(), static_cast<Index>(to_.state_times.size()));
@@ -98,7 +113,7 @@ class Follower final : public time::Observer {
   void start(const time::State& state) override {
     probes_.evaluate(state, row_);
     take_row();
-    raise_scales(state.x);
+    raise_scales(state.t, state.x);
     if (to_.state_times.empty()) return;
     to_.x.col(0) = state.x;
     to_.v.col(0) = state.v;
@@ -108,7 +123,7 @@ class Follower final : public time::Observer {
   void step(const time::AcceptedStep& step) override {
     rows_.visit(step, [](double) {});
     const std::vector<double>& times = to_.histories.times;
-    if (next_row_ < times.size() && times[next_row_] <= step.to.t) raise_scales(step.to.x);
+    if (next_row_ < times.size() && times[next_row_] <= step.to.t) raise_scales(step.to.t, step.to.x);
     while (next_row_ < times.size() && times[next_row_] <= step.to.t) {
       probes_.evaluate(step, times[next_row_], row_);
       take_row();
@@ -131,12 +146,22 @@ class Follower final : public time::Observer {
     for (std::size_t i = 0; i < row_.size(); ++i) to_.histories.values[i].push_back(row_[i]);
     ++next_row_;
   }
-  void raise_scales(ConstVectorRef x) {
-    std::array<double, 2>& largest = to_.histories.largest_of_kind;
-    for (std::size_t i = 0; i < is_rotation_.size(); ++i) {
-      double& of_kind = largest[is_rotation_[i] ? 1 : 0];
-      of_kind = std::max(of_kind, std::abs(x[static_cast<Index>(i)]));
+  void raise_scales(double t, ConstVectorRef x) {
+    const auto raise = [&](record::Histories::Kind kind, double value) {
+      double& largest = to_.histories.largest_of_kind[kind];
+      largest = std::max(largest, std::abs(value));
+    };
+    for (std::size_t i = 0; i < kinds_.size(); ++i) raise(kinds_[i], x[static_cast<Index>(i)]);
+    for (std::size_t i = 0; i < to_other_frame_.size(); ++i) {
+      if (kinds_[i] == record::Histories::rotation) continue;
+      double value = x[static_cast<Index>(i)];
+      for (const model::BaseShare& share : to_other_frame_[i]) value += share.factor * share.motion->value(t);
+      raise(record::Histories::other_displacement, value);
     }
+  }
+  static record::Histories::Kind kind_of(DofKind kind, bool is_in_other_frame) {
+    using Kind = record::Histories::Kind;
+    return is_rotation(kind) ? Kind::rotation : is_in_other_frame ? Kind::other_displacement : Kind::displacement;
   }
 
   record::Probes probes_;
@@ -144,11 +169,14 @@ class Follower final : public time::Observer {
   std::vector<double> row_;
   record::OutputTimes rows_;
   std::vector<Index> dofs_;
-  std::vector<bool> is_rotation_;  ///< of each DOF
+  std::vector<record::Histories::Kind> kinds_;  ///< of each DOF
+  /// The terms that each DOF has in the other frame; empty if nothing is followed there.
+  std::vector<std::vector<model::BaseShare>> to_other_frame_;
   std::size_t next_row_ = 0, next_state_ = 0;
 };
 
-/// The smallest and the largest displacement of each probe, followed by those of the stops.
+/// The smallest and the largest displacement of each probe, in the frame of the equations of motion, followed by those
+/// of the stops.
 class Displacements final : public time::Observer {
  public:
   Displacements(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics) {
@@ -190,7 +218,8 @@ void sum_up(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics,
     const std::string name = followed[i].label + "." + model::name_of(followed[i].quantity);
     run.numbers.push_back(
         {"rms of " + name, std::sqrt(squares / static_cast<double>(run.histories.times.size())), false});
-    run.numbers.push_back({"peak of " + name, displacements.range(i).size(), false});
+    if (!followed[i].is_in_other_frame)
+      run.numbers.push_back({"peak of " + name, displacements.range(i).size(), false});
   }
   if (dynamics.stop_count() == 0 && contacts == nullptr) return;
   const Vector closed = dynamics.stops().closed_stiffness();
