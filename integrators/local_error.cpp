@@ -48,10 +48,9 @@ constexpr double kMostStiff = 0.5;
 constexpr double kReversal = 2.0;
 /// Errors below kNearRounding may be rounding; those below kQuiet times their bound let the step grow at any rate.
 constexpr double kNearRounding = 1e-14, kQuiet = 1e-3;
-/// A structure rests, for example in a static position, as long as its velocities are below kStill times rate_ and the
-/// displacements: they are rounding, and so are errors below kStillError times these. A control of them would follow
-/// vibrations of rounding at the highest frequency.
-constexpr double kStill = 1e-10, kStillError = 1e-12;
+/// Errors below kStillError times the displacements (rate_ times these) are rounding in a structure that rests. A
+/// control of them would follow vibrations of rounding at the highest frequency.
+constexpr double kStillError = 1e-12;
 /// The part of the longest stable step that explicit methods take at rest (chosen).
 constexpr double kStableAtRest = 0.8;
 /// If a stop closes or opens in a step, the error falls with this power of h.
@@ -288,8 +287,11 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     allow_rounding(change.has_changed ? ErrorAccount::kSpend * balance / orders_.contact_change : smooth);
   // Rounding does not fall with the step, and must not keep it short either: rounding of velocities falls with h, the
   // bound nearly so, and accepted steps would shrink by orders of magnitude.
+  // Steps of a method that treats the linear part exactly would stay as short as a change of contact made them.
   const auto shrinks = [&] {
-    return steps_ == Steps::any && h * rate_ < kTiny && any_step(h, r, from.memory[kOld], power_ * orders_.method) < h;
+    if (h * rate_ >= kTiny) return false;
+    return steps_ == Steps::any ? any_step(h, r, from.memory[kOld], power_ * orders_.method) < h
+                                : orders_.is_linear_part_exact;
   };
   if (rounding_ && !change.has_changed && r <= 1.0 && r > kQuiet && (epsilon < kNearRounding || shrinks()))
     allow_rounding(kQuiet * smooth);

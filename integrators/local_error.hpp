@@ -94,6 +94,9 @@ class LocalErrorControl {
   bool is_long(double h) const { return as_a_whole_ && h * rate_ > kStiff; }
   /// True if nothing has moved up to this state but by rounding.
   bool is_still(const time::State& state);
+  /// A structure rests, for example in a static position, as long as its velocities are below kStill times the highest
+  /// rate and the displacements: they are rounding.
+  static constexpr double kStill = 1e-10;
 
   /// The largest |x|_M and |v|_M so far.
   static double norm_x(const time::State& state) { return state.memory[kNormX]; }

@@ -36,6 +36,9 @@ constexpr std::size_t kKept = 12;
 /// length.
 constexpr int kMostCuts = 5;
 constexpr double kCut = 1e-3, kCoarsestCut = 1e-6;
+/// The step after a shortened one begins on the border, but for the error of its position; changes within this fraction
+/// of it are that one again, at which steps would end again and again where contacts touch a border and return.
+constexpr double kSameChange = 1e-3;
 /// Behind the end of a shortened step a change is searched over this fraction of its length.
 constexpr double kBeyond = 0.02;
 
@@ -83,7 +86,7 @@ double ModalCollocation::first_step(const State&) const {
 
 void ModalCollocation::do_start(State& state) {
   const Index p = modes_.count();
-  state.memory.setZero(memory_begin_ + 2 * p * (1 + kCount));
+  state.memory.setZero(memory_begin_ + 2 * p * (1 + kCount) + 1);
   control_.start(state);
   modes_.to_modal(state.x, state.v, state.memory.segment(memory_begin_, 2 * p));
   step_end_ = std::numeric_limits<double>::quiet_NaN();
@@ -138,7 +141,9 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
     // The forces behind a change shift its computed position, so that a shortened step may end
     // before the change.
     const double beyond = cut > 0 ? std::min(1.0 + kBeyond, wanted / h) : 1.0,
-                 change = forces_.first_contact_change(from.t, h, beyond);
+                 begin = was_shortened(from) ? kSameChange * wanted / h : 0.0,
+                 change = forces_.first_contact_change(from.t, h, {std::min(begin, beyond), beyond},
+                                                       control_.is_still(from));
     if (change >= beyond || std::abs(change - 1.0) <= std::min(kCoarsestCut, kCut * tolerance_) ||
         !(from.t + change * h > from.t))
       break;
@@ -148,6 +153,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   }
   if (coarse > 1.0 && !forces_.stays_apart()) return redo_with(h * std::max(0.1, by_resolution(coarse)));
   accept(from, h, to);
+  to.memory.tail(1)[0] = h < wanted ? 1.0 : 0.0;
   judge(from, to, h, report);
   // This needs the scales of `to`, which judge() finds.
   const CollocationOutputs::Longest longest = outputs_.longest(from, to);
@@ -171,6 +177,7 @@ bool ModalCollocation::end_at(const State& from, State& to, StepReport& report) 
                  PlaceResponse(modes_, loads_.harmonic(), 1.0, h));
   are_nodes_known_ = false;
   accept(from, h, to);
+  to.memory.tail(1)[0] = 0.0;
   judge(from, to, h, report);
   if (report.error <= 1.0) return true;
   report = {};

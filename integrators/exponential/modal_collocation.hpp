@@ -56,6 +56,8 @@ class ModalCollocation final : public time::Integrator {
   void accept(const time::State& from, double h, time::State& to);
   /// Judges the errors of displacements and velocities at the end of the step.
   void judge(const time::State& from, time::State& to, double h, time::StepReport& report);
+  /// The step that ended at this state was shortened by a change of contact, which is the last entry of its memory.
+  static bool was_shortened(const time::State& state) { return state.memory.tail(1)[0] != 0.0; }
   const double* modal(const time::State& state) const { return state.memory.data() + memory_begin_; }
 
   LocalErrorControl control_;

@@ -30,6 +30,8 @@ constexpr double kRounding = 1e-13;
 /// The rounding error of a displacement at a node, relative to the largest one: that of a sum over many modes. A stiff
 /// contact multiplies it.
 constexpr double kRoundingOfPlace = 16.0 * std::numeric_limits<double>::epsilon();
+/// That of the polynomial through the nodes between them, whose coefficients lose further digits.
+constexpr double kRoundingOfCrossing = 256.0 * kRoundingOfPlace;
 /// The same for the effect of contacts on the end of a step; the polynomials' coefficients lose
 /// further digits.
 constexpr double kRoundingOfEnd = 1e-12;
@@ -320,14 +322,17 @@ StepNodes::Row NodeForces::displacement_of(Index stop) const {
   return motion;
 }
 
-double NodeForces::first_contact_change(double t, double h, double last) {
-  double first = last;
+double NodeForces::first_contact_change(double t, double h, const CrossingRange& range, bool is_still) {
+  // At rest on a border, for example where a static load just closes a stop, rounding crosses it again and again.
+  const double part = is_still ? LocalErrorControl::kStill : kRoundingOfCrossing,
+               rounding = moved_.size() > 0 ? part * moved_.cwiseAbs().maxCoeff() : 0.0;
+  CrossingRange search{range.begin, range.last, rounding};
   for (Index i = 0; i < dynamics_.stops().size(); ++i)
-    first = borders_.first_crossing(i, displacement_of(i) * StepNodes::with_middle(), first);
+    search.last = borders_.first_crossing(i, displacement_of(i) * StepNodes::with_middle(), search);
   for (const auto& [contact, border] : inner_borders_)
     if (dynamics_.obstacles()->phase(contact).touches())
-      first = StepNodes::first_crossing(penetration_of(contact, t, h) * StepNodes::with_middle(), border, first);
-  return first;
+      search.last = StepNodes::first_crossing(penetration_of(contact, t, h) * StepNodes::with_middle(), border, search);
+  return search.last;
 }
 
 StepNodes::Row NodeForces::penetration_of(Index obstacle, double t, double h) {

@@ -61,9 +61,9 @@ class NodeForces {
   double inner_error(const time::State& from, const time::State& to) const;
   /// True if steps end where contacts cross borders that are no changes of their phase.
   bool has_borders() const { return dynamics_.stops().size() > 0 || !inner_borders_.empty(); }
-  /// The fraction of the step of length h from t after which a contact crosses one of these borders; `last`, which may
-  /// slightly exceed 1, if none does.
-  double first_contact_change(double t, double h, double last);
+  /// The fraction of the step of length h from t after which a contact crosses one of these borders; range.last, which
+  /// may slightly exceed 1, if none does. `is_still`: the structure rests, and crosses borders by rounding.
+  double first_contact_change(double t, double h, const CrossingRange& range, bool is_still);
 
  private:
   using AtNodes = Eigen::Matrix<double, Eigen::Dynamic, StepNodes::kCount>;

@@ -143,16 +143,23 @@ StepNodes::Hermite StepNodes::hermite(double place) {
   return {lagrange(place) - begin * begin_slopes + end * begin_slopes.reverse(), begin, end};
 }
 
-double StepNodes::first_crossing(const Row& coefficients, double border, double last) {
+double StepNodes::first_crossing(const Row& coefficients, double border, const CrossingRange& range) {
+  const double last = range.last;
   const auto at = [&](double s) {
     double sum = 0.0;
     for (Index r = kCount - 1; r >= 0; --r) sum = sum * s + coefficients[r];
     return sum - border;
   };
-  double begin = 0.0, at_begin = at(0.0);
+  const auto beyond_rounding = [&](double s) {
+    const double distance = at(s);
+    return std::abs(distance) > range.rounding ? distance : 0.0;
+  };
+  double begin = range.begin, at_begin = beyond_rounding(begin);
   for (int k = 1; begin < last; ++k) {
-    double end = k <= kLooks ? static_cast<double>(k) / kLooks : last, at_end = at(end);
-    if (k == 1 && std::abs(at_begin) <= kOnBorder * std::abs(at_end)) at_begin = at_end;
+    double end = k <= kLooks ? static_cast<double>(k) / kLooks : last;
+    if (end <= begin) continue;
+    const double at_end = beyond_rounding(end);
+    if (begin == range.begin && std::abs(at_begin) <= kOnBorder * std::abs(at_end)) at_begin = at_end;
     if (at_begin * at_end < 0.0) {
       while (true) {
         const double middle = 0.5 * (begin + end);

@@ -9,6 +9,12 @@
 
 namespace butee::integrators {
 
+/// Where a step is searched for crossings of a border, as fractions of its length.
+struct CrossingRange {
+  double begin = 0.0, last = 1.0;
+  double rounding = 0.0;  ///< values that differ from the border by at most this are on it
+};
+
 /// The collocation nodes of a step, positions from 0 to 1: the six points of Lobatto's rule and the
 /// middle.
 struct StepNodes {
@@ -57,11 +63,11 @@ struct StepNodes {
     return std::min(2.0, kMiss * square * square * square * w);
   }
 
-  /// The position at which a polynomial, given by its coefficients, first crosses a border before
-  /// `last`; `last` if it does not. The polynomial is sampled at 32 positions up to 1, and at
-  /// `last` if that exceeds 1. A start that is much nearer to the border than the first sample
+  /// The position at which a polynomial, given by its coefficients, first crosses a border in the
+  /// range; range.last if it does not. The polynomial is sampled at 32 positions up to 1, and at
+  /// range.last if that exceeds 1. A start that is much nearer to the border than the first sample
   /// counts as on the border and does not cross it.
-  static double first_crossing(const Row& coefficients, double border, double last);
+  static double first_crossing(const Row& coefficients, double border, const CrossingRange& range);
 };
 
 }  // namespace butee::integrators

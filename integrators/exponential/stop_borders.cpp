@@ -44,10 +44,10 @@ StopBorders::StopBorders(dynamics::ElasticStops& stops) : stops_(stops) {
   }
 }
 
-double StopBorders::first_crossing(Index stop, const Row& displacement, double last) const {
+double StopBorders::first_crossing(Index stop, const Row& displacement, CrossingRange range) const {
   for (const double border : borders_[static_cast<std::size_t>(stop)])
-    last = StepNodes::first_crossing(displacement, border, last);
-  return last;
+    range.last = StepNodes::first_crossing(displacement, border, range);
+  return range.last;
 }
 
 double StopBorders::side_of_step(double start, double next) {

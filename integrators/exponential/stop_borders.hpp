@@ -26,9 +26,9 @@ class StopBorders {
   /// The penetration, m, from which a law without a force while open is linear; 0 if it does not tell.
   static double inner_border(const model::ContactLaw& law);
 
-  /// The position of the first border that the displacement of a stop crosses before `last`, or `last`; the
+  /// The position of the first border that the displacement of a stop crosses in the range, or range.last; the
   /// displacement is given by its polynomial over a step. See StepNodes::first_crossing().
-  double first_crossing(Index stop, const Row& displacement, double last) const;
+  double first_crossing(Index stop, const Row& displacement, CrossingRange range) const;
 
   /// The stops whose force jumps at w = 0.
   const std::vector<Index>& jumping() const { return jumping_; }

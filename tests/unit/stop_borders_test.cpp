@@ -35,7 +35,7 @@ StepNodes::Row line(double from, double to) {
 
 double first_w(SceneRun& run, double from, double to) {
   const StopBorders borders(run.dynamics().stops());
-  return from + (to - from) * borders.first_crossing(0, line(from, to), 1.0);
+  return from + (to - from) * borders.first_crossing(0, line(from, to), {});
 }
 
 TEST(StopBorders, AreTheGapsOfALawWithoutForceWhileOpen) {

@@ -215,6 +215,64 @@ tolerance = )";
   }
 }
 
+/// Two masses whose static position is where a stop just closes, and loads so near to that of this position that the
+/// stop opens and closes by parts of 1e-8 of the displacement. Rounding crosses the border as well, and steps that end
+/// at every crossing went on for ever.
+TEST(AtRest, TwoMassesWhereAStopJustCloses) {
+  const auto scene = [](const std::string& law, const std::string& load) {
+    return R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "mass"
+name = "q"
+mass = 0.3
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 1e4
+damping = 3.0
+[[element]]
+type = "spring"
+nodes = ["m", "q"]
+stiffness = 5e3
+[initial]
+displacement = [{ nodes = ["m", "q"], value = 1e-3 }]
+[integrator]
+type = "exponential"
+tolerance = 1e-4
+end_time = 0.6
+[[load]]
+node = "m"
+type = "constant"
+value = )" +
+           load + R"(
+[[contact]]
+type = "stop"
+nodes = "q"
+gap = 1e-3
+sides = "positive"
+)" + law;
+  };
+  for (const char* law : {"law = \"linear\"\nstiffness = 2.4e6\n", "law = \"hertz\"\nstiffness = 1e8\nexponent = 1.5\n",
+                          "law = \"arctan\"\nstiffness = 2.4e6\nregularization = 1e5\n",
+                          "law = \"smooth\"\nstiffness = 2.4e6\nwidth = 1e-5\n"})
+    for (const char* load : {"10.0", "9.9999999", "10.0000001", "9.9999", "10.0001"}) {
+      const auto end_of = [&](const std::string& method) {
+        SceneRun run(scene(law, load), {"integrator.type=" + method});
+        const auto& report = run.run();
+        EXPECT_TRUE(report.completed) << method << law << load << report.message;
+        EXPECT_LT(report.steps + report.rejected, 20000) << method << law << load;
+        return Vector(run.simulation().state().x);
+      };
+      const Vector found = end_of("exponential"), wanted = end_of("rodas4");
+      EXPECT_LT((found - wanted).lpNorm<Eigen::Infinity>(), 1e-3 * 1e-3) << law << load;
+    }
+}
+
 TEST(AtRest, ADisplacementBesideGravityStaticIsSaidToBeAStartOfTheSearch) {
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
