@@ -71,14 +71,18 @@ void SceneReader::check_magnitudes() {
   if (diagnostics_.error_count() == 0) check_rounding();
 }
 
-void SceneReader::check_rounding() {
-  if (rounded_.empty()) return;
-  constexpr std::size_t kMost = 20;
+double SceneReader::run_time() const {
   const Value* integrator = root_.table()->find("integrator");
   const Value* end =
       integrator != nullptr && integrator->table() != nullptr ? integrator->table()->find("end_time") : nullptr;
-  const double given = end != nullptr ? config::as_number(*end).value_or(1.0) : 1.0,
-               time = given > 0.0 && std::isfinite(given) ? given : 1.0;
+  const double given = end != nullptr ? config::as_number(*end).value_or(1.0) : 1.0;
+  return given > 0.0 && std::isfinite(given) ? given : 1.0;
+}
+
+void SceneReader::check_rounding() {
+  if (rounded_.empty()) return;
+  constexpr std::size_t kMost = 20;
+  const double time = run_time();
   const System system = assemble(model_, TurningParts::apart);
   // Over the run, inertia holds what no spring holds.
   const SparseMatrix held = system.stiffness + (1.0 / (time * time)) * system.mass;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "butee/core/text.hpp"
 #include "butee/scene/scene_reader.hpp"
 
 namespace butee::scene {
@@ -88,10 +89,15 @@ void SceneReader::read_base_entry(const Value& entry, const std::string& path, b
     return along->complain(diagnostics_, "direction", "has no length; give one such as [0, 1, 0]");
   BaseMotion base{direction.normalized(), std::nullopt, {}};
   if (p->has("nodes") && !read_base_nodes(*p, base)) return;
-  if (key == "acceleration")
+  if (key == "acceleration") {
     integrate_base(*in_time, p->number("initial_velocity"), base);
-  else if (!differentiate_base(motion, path + "." + key, *in_time, base))
-    return;
+    if (base.motion && loses_digits((*base.motion)[2]))
+      return diagnostics_.error(path + "." + key, motion.at,
+                                "turns by " + to_short_text((*base.motion)[2].wave.angular_frequency * run_time()) +
+                                    " rad in the run, too little for its double integral in double precision; give a "
+                                    "constant or a ramp");
+  }
+  if (key != "acceleration" && !differentiate_base(motion, path + "." + key, *in_time, base)) return;
   if (!base.motion) {
     if (base.nodes.empty() && model_.base_frame == BaseFrame::moving) {
       auto pattern = inertia_pattern(model_, -base.direction);
@@ -133,6 +139,14 @@ void SceneReader::integrate_base(const TimeFunction& acceleration, double initia
   if (!problem.empty()) return;
   const SmoothMotion v = a.integral(initial_velocity);
   base.motion = {v.integral(0.0), v, a};
+}
+
+bool SceneReader::loses_digits(const SmoothMotion& acceleration) const {
+  // -A/omega^2 cos omega t + A/omega^2 is a small difference of large numbers: of A t^2/2 it loses 4 epsilon/(omega
+  // t)^2.
+  constexpr double kLeastTurn = 1e-4;
+  const double turn = acceleration.wave.angular_frequency * run_time();
+  return acceleration.wave.amplitude != 0.0 && turn > 0.0 && turn < kLeastTurn;
 }
 
 bool SceneReader::differentiate_base(const Value& motion, const std::string& path, const TimeFunction& displacement,

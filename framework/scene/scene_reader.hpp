@@ -43,6 +43,8 @@ class SceneReader {
   void read_base_entry(const config::Value& entry, const std::string& path, bool takes_nodes);
   bool read_base_nodes(const config::Parameters& parameters, BaseMotion& base);
   void integrate_base(const TimeFunction& acceleration, double initial_velocity, BaseMotion& base);
+  /// Whether a harmonic acceleration turns so little in the run that its double integral is rounding.
+  bool loses_digits(const SmoothMotion& acceleration) const;
   bool differentiate_base(const config::Value& motion, const std::string& path, const TimeFunction& displacement,
                           BaseMotion& base);
   bool can_be_still(const config::Value& given);
@@ -98,6 +100,8 @@ class SceneReader {
   void check_magnitudes();
   /// Reports elements beside which the rounding of a sum of stiffnesses is much of what holds its DOF.
   void check_rounding();
+  /// The end_time of the scene, s; 1 if it is missing or wrong, which is reported elsewhere.
+  double run_time() const;
   /// Reports a contact that is too stiff for the mass at its nodes; `stiffness` in N/m or N m/rad.
   void check_rate(const config::Parameters& parameters, const std::string& key, double stiffness,
                   const std::vector<NodeId>& nodes, const std::vector<DofKind>& directions);

@@ -378,6 +378,47 @@ TEST(TrustOfUncontrolledSteps, KnowsRegularMotion) {
   EXPECT_TRUE(app::find_trust(session).chaotic);
 }
 
+/// On a base that moves away the motion relative to it is the difference of long ways, whose errors are as large as it
+/// is. What a probe records is judged, in its own frame.
+TEST(TrustBesideAMovingBase, IsThatOfTheFrameOfTheProbe) {
+  const auto bound_of = [](const std::string& quantity) {
+    scene::Scene session = read_scene(R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 2.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 2000.0
+damping = 4.0
+[base]
+acceleration = { direction = [0, 1, 0], type = "table", times = [0.0, 0.1, 0.2, 10.0], values = [0.0, 0.5, -0.5, 0.0] }
+initial_velocity = 10.0
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 1000.0
+law = "linear"
+stiffness = 1e4
+frame = "space"
+[integrator]
+type = "rodas4"
+tolerance = 1e-3
+end_time = 5.0
+[output]
+interval = 0.01
+[[output.probe]]
+node = "m"
+quantities = [")" + quantity + "\"]\n",
+                                      {});
+    return app::find_trust(session).end_bound;
+  };
+  EXPECT_GT(bound_of("u"), 0.1);
+  EXPECT_LT(bound_of("u_abs"), 1e-3);
+}
+
 INSTANTIATE_TEST_SUITE_P(KnownScenes, Trust, testing::ValuesIn(all_scenes()),
                          [](const auto& one) { return one.param.name; });
 

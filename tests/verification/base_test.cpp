@@ -305,6 +305,10 @@ INSTANTIATE_TEST_SUITE_P(
                     "[base]\ndisplacement = { direction = [0, 1, 0], type = \"table\", times = [1, 2], values = [0, "
                     "1] }\n",
                 "must begin at t = 0 or before"},
+        Mistake{"too_slow",
+                kMass + "[base]\nacceleration = { direction = [0, 1, 0], type = \"harmonic\", amplitude = 1.0, "
+                        "angular_frequency = 1e-8 }\n",
+                "too little for its double integral in double precision; give a constant or a ramp"},
         Mistake{"no_direction", kMass + "[base]\nacceleration = { type = \"constant\", value = 1.0 }\n",
                 "base.acceleration.direction: missing"},
         Mistake{"along_nothing",
