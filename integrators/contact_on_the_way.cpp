@@ -33,6 +33,11 @@ double peak(double h, double w0, double v0, double a0, double w1, double v1) {
 
 }  // namespace
 
+double inner_border(const model::ContactLaw& law) {
+  const double width = law.transition_width();
+  return law.is_silent_while_open() && std::isfinite(width) ? width : 0.0;
+}
+
 ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
     : contact_(&dynamics.stops()), tolerance_(tolerance) {
   w0_ = w1_ = v0_ = v1_ = a0_ = least_ = most_ = strayed_ = Vector::Zero(contact_->size());

@@ -6,6 +6,10 @@
 
 namespace butee::integrators {
 
+/// The penetration, m, at which a law without a force while open passes from its transition to its linear branch, with
+/// a jump in a higher derivative; 0 if it does not tell.
+double inner_border(const model::ContactLaw& law);
+
 /// Detects changes of contact within a step. The error estimate of a method does not resolve them,
 /// since its few stages sample the slope discontinuity of the force once or not at all. Checked in
 /// tests/unit/contact_on_the_way_test.cpp.

@@ -63,6 +63,7 @@ constexpr double kTouches = 1e-3;
 
 LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps)
     : dynamics_(dynamics),
+      stops_(dynamics.stops()),
       obstacles_(dynamics.obstacles()),
       contact_(dynamics, goal.tolerance),
       centre_(dynamics),
@@ -89,6 +90,12 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
       fastest_ = std::max(fastest_, harmonic->angular_frequency);
     }
+  for (Index i = 0; i < dynamics.stops().size(); ++i)
+    if (const double border = inner_border(dynamics.stops().law_of(i)); border > 0.0)
+      inner_borders_.emplace_back(i, border);
+  for (Index i = 0; obstacles_ != nullptr && i < obstacles_->size(); ++i)
+    if (const auto& law = obstacles_->group_of(i).law; law != nullptr && inner_border(*law) > 0.0)
+      inner_borders_of_obstacles_.emplace_back(i, inner_border(*law));
   if (std::isfinite(orders.damping)) longest_ = orders.damping / bound_of_damping(system);
 }
 
@@ -101,6 +108,23 @@ bool LocalErrorControl::touches_anew(const time::State& from, const time::State&
                  end = obstacles_->forces(i, to.t, to.x, to.v).penetration;
     if (std::min(begin, end) < kTouches * std::max(begin, end)) return true;
   }
+  return false;
+}
+
+bool LocalErrorControl::passes_inner_border(const time::State& from, const time::State& to) const {
+  const auto passes = [](double border, double begin, double end) { return (begin - border) * (end - border) < 0.0; };
+  for (const auto& [i, border] : inner_borders_) {
+    const auto penetration = [&stops = stops_, i = i](const Vector& x) {
+      const Index a = stops.dof_a(i), b = stops.dof_b(i);
+      const double w = (a >= 0 ? x[a] : 0.0) - (b >= 0 ? x[b] : 0.0);
+      return std::max(w - stops.play_of(i).upper(), stops.play_of(i).lower() - w);
+    };
+    if (passes(border, penetration(from.x), penetration(to.x))) return true;
+  }
+  for (const auto& [i, border] : inner_borders_of_obstacles_)
+    if (obstacles_->phase(i).touches() && passes(border, obstacles_->forces(i, from.t, from.x, from.v).penetration,
+                                                 obstacles_->forces(i, to.t, to.x, to.v).penetration))
+      return true;
   return false;
 }
 
@@ -326,7 +350,8 @@ LocalErrorControl::Change LocalErrorControl::change_of_contact(const time::State
                                                                double h) {
   const double crossing = centre_.jump(from, to, h, scale_v_);
   Change change;
-  change.has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to) ||
+  change.has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) ||
+                       passes_inner_border(from, to) || slip_reverses(from, to) ||
                        h * crossing > ContactOnTheWay::kNegligibleImpulse * smooth_error(h);
   if (as_a_whole_ || !change.has_changed) return change;
   change.least = kOfJump * h * std::max(contact_.jump(from, to, h, scale_v_), crossing);

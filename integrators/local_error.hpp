@@ -133,6 +133,9 @@ class LocalErrorControl {
   /// True if a contact with a nonlinear law begins or ends at an end of the step. There its force
   /// varies with a fractional power of time, but the estimate assumes a smooth function.
   bool touches_anew(const time::State& from, const time::State& to) const;
+  /// True if a contact passes the inner border of its law in the step, where the estimate assumes a smooth function
+  /// too.
+  bool passes_inner_border(const time::State& from, const time::State& to) const;
   /// ContactOnTheWay::longest_of_impact() for all contacts.
   double longest_of_impact(const time::State& from, double h, const Vector& scale_v);
   /// True if the slip of a contact with smooth friction reverses within a small part of the step, so that the friction
@@ -170,8 +173,10 @@ class LocalErrorControl {
   static double longer_step(double h, double indices);
 
   const dynamics::Dynamics& dynamics_;
+  const dynamics::ElasticStops& stops_;
   dynamics::Obstacles* obstacles_;  ///< null if there are none
   Proposed controller_;
+  std::vector<std::pair<Index, double>> inner_borders_, inner_borders_of_obstacles_;  ///< of stops and obstacles, m
   ContactOnTheWay contact_;
   CentreCrossing centre_;
   ErrorAccount account_;

@@ -52,8 +52,8 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
   if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
     for (Index i = 0; i < obstacles->size(); ++i)
-      if (const auto& law = obstacles->group_of(i).law; law != nullptr && StopBorders::inner_border(*law) > 0.0)
-        inner_borders_.emplace_back(i, StopBorders::inner_border(*law));
+      if (const auto& law = obstacles->group_of(i).law; law != nullptr && inner_border(*law) > 0.0)
+        inner_borders_.emplace_back(i, inner_border(*law));
   const Index p = modes.count();
   free_ = nodes_ = polynomial_ = missed_ = Lanes::Zero(2 * p, Lanes::ColsAtCompileTime);
   end_ = error_ = Vector::Zero(2 * p);

@@ -105,7 +105,7 @@ class NodeForces {
   ContactDofs dofs_;
   bool need_velocity_;
   StopBorders borders_;
-  std::vector<std::pair<Index, double>> inner_borders_;  ///< of obstacles: StopBorders::inner_border(), m
+  std::vector<std::pair<Index, double>> inner_borders_;  ///< of obstacles: inner_border(), m
   ForceErrors errors_;
   std::vector<double> sides_;  ///< of borders_.jumping() in the step
   ActiveDofs active_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "butee/core/error.hpp"
+#include "integrators/contact_on_the_way.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -15,11 +16,6 @@ constexpr double kBeside = 4.0;
 constexpr double kAtJump = 1e-3;
 
 }  // namespace
-
-double StopBorders::inner_border(const model::ContactLaw& law) {
-  const double width = law.transition_width();
-  return law.is_silent_while_open() && std::isfinite(width) ? width : 0.0;
-}
 
 StopBorders::StopBorders(dynamics::ElasticStops& stops) : stops_(stops) {
   for (Index i = 0; i < stops.size(); ++i) {

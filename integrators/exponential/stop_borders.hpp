@@ -23,9 +23,6 @@ class StopBorders {
   /// `stops` must outlive it.
   explicit StopBorders(dynamics::ElasticStops& stops);
 
-  /// The penetration, m, from which a law without a force while open is linear; 0 if it does not tell.
-  static double inner_border(const model::ContactLaw& law);
-
   /// The position of the first border that the displacement of a stop crosses in the range, or range.last; the
   /// displacement is given by its polynomial over a step. See StepNodes::first_crossing().
   double first_crossing(Index stop, const Row& displacement, CrossingRange range) const;
