@@ -47,10 +47,10 @@ Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
 }
 
 /// Up to this number of DOFs the closed form between two changes of contact costs less than steps;
-/// the limit is higher for tight tolerances (plugins/auto/README.md).
+/// the limit is higher for tight tolerances (plugins/auto/run-times.md).
 constexpr Index kFew = 4, kFewAtTight = 6;
 constexpr double kTight = 1e-5;
-/// From this tolerance on steps of low order suffice (plugins/auto/README.md).
+/// From this tolerance on steps of low order suffice (plugins/auto/run-times.md).
 constexpr double kLoose = 1e-4;
 
 /// True for few DOFs with linear stops whose contact states have modes. If damping does not couple
@@ -107,8 +107,8 @@ bool has_jump(dynamics::Dynamics& dynamics) {
 }
 
 /// Whether damped modes are worth their cost, beside a run by rodas4. All costs in s, to a factor of two, were measured
-/// on pipes of 136 to 560 DOFs in rings (plugins/auto/README.md); another machine changes all of them by about the same
-/// factor.
+/// on pipes of 136 to 560 DOFs in rings (plugins/auto/run-times.md); another machine changes all of them by about the
+/// same factor.
 class DampedModesBudget {
  public:
   DampedModesBudget(dynamics::Dynamics& dynamics, double tolerance, double end_time)
@@ -146,7 +146,7 @@ class DampedModesBudget {
 };
 
 /// True if a body that the regularised friction of a support holds creeps at a rate far above that of the structure:
-/// all methods but L-stable ones then take steps of that rate (plugins/auto/README.md).
+/// all methods but L-stable ones then take steps of that rate (plugins/auto/run-times.md).
 bool creeps(const FastestRates& rates) {
   constexpr double kCreeps = 20.0;
   return rates.friction > kCreeps * rates.open;
@@ -183,7 +183,7 @@ bool suits_collocation(dynamics::Dynamics& dynamics, const FastestRates& rates) 
 
 /// A method that follows every frequency by steps of high order, for tolerances at which others need many more steps.
 /// exact takes 2 to 3 rad of the fastest mode a step, extrapolation8 less and the less the tighter the tolerance.
-/// Times in s for each radian and DOF, to a factor of three, from the pipes and beams of plugins/auto/README.md. A
+/// Times in s for each radian and DOF, to a factor of three, from the pipes and beams of plugins/auto/run-times.md. A
 /// structure whose fastest DOFs are at rest may be cheaper by rodas4, so that only runs of seconds are taken.
 class HighOrder {
  public:
@@ -272,7 +272,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const FastestRates rates = fastest_rates(dynamics);
   const bool is_singular = dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles());
   // Where a slope is infinite, collocation takes more steps than explicit methods if there is no fast motion beside it.
-  // In a ring a rotor may whirl on and on, which takes explicit methods far longer (plugins/auto/README.md).
+  // In a ring a rotor may whirl on and on, which takes explicit methods far longer (plugins/auto/run-times.md).
   if (is_singular && n <= kFewAtTight && !has_ring(*dynamics.obstacles()))
     return choose_for_obstacles(dynamics, rates, tolerance);
   const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;

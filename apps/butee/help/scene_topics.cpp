@@ -114,8 +114,8 @@ only those that an element uses. Supports, loads, springs, stops, initial values
 
 Probes of forces, along and about the own axes of a beam: N (with a preload in N), Vy, Vz, T, My, Mz are the force and
 the moment that the side of larger x exerts on the side of smaller x; V = Vy and M = Mz. My = -E I d2w/dx2.
-Along the axes of space: contact_ux ... contact_rz of contacts, reaction_ux ... reaction_rz of supports, spring_ux ...
-spring_rz of springs and bearings.
+Along the axes of space: contact_ux ... contact_rz of contacts, reaction_ux ... reaction_rz of supports (with the
+preload of beams in N), spring_ux ... spring_rz of springs and bearings.
 von_mises is that of the outer fibre, with N and T: in space of round sections; bending_stress that of bending along
 u. All include the element's own inertia, gyroscopic moments, weight and base motion.
 
