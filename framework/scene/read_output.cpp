@@ -94,7 +94,7 @@ class OutputReader {
       request.every = p->integer("every");
     else
       request.interval = p->has("interval") ? p->number("interval") : (end_time_ - begin_) / kDefaultIntervals;
-    if (complete_ && p->has("interval") && *request.interval > end_time_ - begin_)
+    if (complete_ && p->has("interval") && request.interval && *request.interval > end_time_ - begin_)
       diagnostics_.warning("output.interval", p->value("interval").at,
                            "is longer than the run of " + to_text(end_time_ - begin_) +
                                " s, so that the history has its beginning and its end alone");

@@ -29,6 +29,12 @@ class ContactGaps {
     const double before = closed_side(stop, from);
     return before != closed_side(stop, to) || (before == 0.0 && excess > 0.0);
   }
+  /// The law of the stop passes the end of its bend between two displacements.
+  bool passes_bend(Index stop, double from, double to) const {
+    if (bends_[stop] == 0.0) return false;
+    const double upper = upper_[stop] + bends_[stop], lower = lower_[stop] - bends_[stop];
+    return (from > upper) != (to > upper) || (from < lower) != (to < lower);
+  }
   /// The stop is closed on the same side at both displacements, or always.
   bool stays_closed(Index stop, double from, double to) const {
     return is_spring(stop) || (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);
@@ -46,6 +52,7 @@ class ContactGaps {
 
  private:
   Eigen::ArrayXd gaps_, upper_, lower_, limits_;
+  Eigen::ArrayXd bends_;                  ///< inner_border() of the laws, m
   Eigen::ArrayXd off_upper_, off_lower_;  ///< 0, or larger than any displacement on a side on which it does not act
 };
 
