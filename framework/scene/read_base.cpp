@@ -142,8 +142,8 @@ void SceneReader::integrate_base(const TimeFunction& acceleration, double initia
 }
 
 bool SceneReader::loses_digits(const SmoothMotion& acceleration) const {
-  // -A/omega^2 cos omega t + A/omega^2 is a small difference of large numbers: of A t^2/2 it loses 4 epsilon/(omega
-  // t)^2.
+  // The displacement A/omega^2 (1 - cos(omega t)) is a small difference of large numbers. Its relative rounding error
+  // is 4 epsilon/(omega t)^2.
   constexpr double kLeastTurn = 1e-4;
   const double turn = acceleration.wave.angular_frequency * run_time();
   return acceleration.wave.amplitude != 0.0 && turn > 0.0 && turn < kLeastTurn;
@@ -183,7 +183,7 @@ bool SceneReader::can_be_still(const Value& given) {
   if (model_.damping.is_modal())
     return refuse("modal damping requires motion relative to one base and cannot be combined with " + where +
                   "; give mass_proportional and stiffness_proportional");
-  // What a base moves is no DOF, and contacts take its displacement as 0.
+  // A displacement that a base moves is fixed and not a DOF. Contacts take it as 0.
   std::set<NodeId> idle;
   const auto check_contacts = [&](const auto& group, const std::vector<DofKind>& along) {
     for (const auto* side : {&group.a, &group.b})

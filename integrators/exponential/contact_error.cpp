@@ -103,7 +103,7 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, d
     const double closed = closed_error(quartic, stiffness * known.coupling[1][0], h, scale);
     changes_.emplace_back(stop, closed);
     error = std::max(error, closed / accounts_.allowed_closed(stop, t_end) * goal_.middle * scale.displacement);
-    if (paths.passes_bend(stop)) {
+    if (paths.passes_inner_border(stop)) {
       const double change = change_error(stiffness * known.coupling[1][0], paths.largest_speed(stop), h, scale);
       changes_.emplace_back(stop, change);
       error = std::max(error, change / accounts_.allowed(stop, t_end) * goal_.middle * scale.displacement);

@@ -25,11 +25,11 @@ ContactGaps::ContactGaps(const dynamics::ElasticStops& contact) {
   lower_ = -gaps_;
   off_upper_.setZero(padded);
   off_lower_.setZero(padded);
-  bends_.setZero(padded);
+  inner_borders_.setZero(padded);
   for (Index i = 0; i < contact.size(); ++i) {
     gaps_[i] = contact.play_of(i).gap;
     limits_[i] = constant_force_limit(contact, i);
-    bends_[i] = inner_border(contact.law_of(i));
+    inner_borders_[i] = inner_border(contact.law_of(i));
     if (contact.play_of(i).has_positive())
       upper_[i] = gaps_[i];
     else

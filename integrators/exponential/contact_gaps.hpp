@@ -30,9 +30,9 @@ class ContactGaps {
     return before != closed_side(stop, to) || (before == 0.0 && excess > 0.0);
   }
   /// The law of the stop passes the end of its bend between two displacements.
-  bool passes_bend(Index stop, double from, double to) const {
-    if (bends_[stop] == 0.0) return false;
-    const double upper = upper_[stop] + bends_[stop], lower = lower_[stop] - bends_[stop];
+  bool passes_inner_border(Index stop, double from, double to) const {
+    if (inner_borders_[stop] == 0.0) return false;
+    const double upper = upper_[stop] + inner_borders_[stop], lower = lower_[stop] - inner_borders_[stop];
     return (from > upper) != (to > upper) || (from < lower) != (to < lower);
   }
   /// The stop is closed on the same side at both displacements, or always.
@@ -52,7 +52,7 @@ class ContactGaps {
 
  private:
   Eigen::ArrayXd gaps_, upper_, lower_, limits_;
-  Eigen::ArrayXd bends_;                  ///< inner_border() of the laws, m
+  Eigen::ArrayXd inner_borders_;          ///< inner_border() of the laws, m
   Eigen::ArrayXd off_upper_, off_lower_;  ///< 0, or larger than any displacement on a side on which it does not act
 };
 

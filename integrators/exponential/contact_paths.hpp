@@ -55,7 +55,9 @@ class ContactPaths {
   ContactScale reached(Index stop) const { return {std::abs(motion_.end[stop]), largest_speed(stop) / step_.h}; }
   /// The stop closes or opens in the step, or both.
   bool changes(Index stop) const { return gaps_.changes(stop, step_.from.w[stop], motion_.end[stop], excess_[stop]); }
-  bool passes_bend(Index stop) const { return gaps_.passes_bend(stop, step_.from.w[stop], motion_.end[stop]); }
+  bool passes_inner_border(Index stop) const {
+    return gaps_.passes_inner_border(stop, step_.from.w[stop], motion_.end[stop]);
+  }
   bool stays_closed(Index stop) const { return gaps_.stays_closed(stop, step_.from.w[stop], motion_.end[stop]); }
 
  private:

@@ -79,8 +79,8 @@ inline constexpr int kMostSweeps = 25;
 /// h times the speed scale is taken as at least this fraction of sigma times the displacement
 /// scale, so that the iteration converges for a stop at rest.
 inline constexpr double kLeastPart = 1e-9;
-/// Rounding of the quartic coefficient of a path, relative to the sum of |phi q| over the modes: 16 times that of a sum
-/// of modes, which is a few units in the last place.
+/// The rounding error of the quartic coefficient of a path, relative to the sum of |phi q| over the modes. It is 16
+/// times the rounding error of a displacement, which is a few epsilon (chosen; THEORY.md, section 8.1).
 inline constexpr double kRoundingOfPaths = 64.0 * std::numeric_limits<double>::epsilon();
 /// Maximum of the Hermite functions that belong to the slopes of a cubic.
 inline constexpr double kBump = 4.0 / 27.0;

@@ -30,7 +30,7 @@ constexpr double kRounding = 1e-13;
 /// The rounding error of a displacement at a node, relative to the largest one: that of a sum over many modes. A stiff
 /// contact multiplies it.
 constexpr double kRoundingOfPlace = 16.0 * std::numeric_limits<double>::epsilon();
-/// That of the polynomial through the nodes between them, whose coefficients lose further digits.
+/// The rounding error of the polynomial between the nodes, likewise. Its coefficients lose further digits.
 constexpr double kRoundingOfCrossing = 256.0 * kRoundingOfPlace;
 /// The same for the effect of contacts on the end of a step; the polynomials' coefficients lose
 /// further digits.

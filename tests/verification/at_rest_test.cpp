@@ -265,6 +265,7 @@ sides = "positive"
         SceneRun run(scene(law, load), {"integrator.type=" + method});
         const auto& report = run.run();
         EXPECT_TRUE(report.completed) << method << law << load << report.message;
+        // arctan takes most, 11757: its force bends within 10 um of the gap, where the mass swings.
         EXPECT_LT(report.steps + report.rejected, 20000) << method << law << load;
         return Vector(run.simulation().state().x);
       };
