@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 
@@ -12,7 +13,7 @@ using time::State;
 
 constexpr Index kCount = StepNodes::kCount;
 /// Allowed interpolation error of modes in outputs between nodes, as a fraction of the tolerance.
-constexpr double kOutput = 0.1;
+constexpr double kOutput = 0.05;
 constexpr double kMostTurn = FastModes::kMostTurn;
 /// For the work of forces a step is divided into at least kPartsOfPower parts, in which modes turn by at most
 /// kTurnOfPower rad. Gauss' rule with five points then integrates power, which turns twice as fast, with an error of
@@ -103,15 +104,26 @@ void CollocationOutputs::divide_modes(const State& from, const State& to) {
   if (slow_) return;
   const Index p = modes_.count();
   const double h = to.t - from.t;
-  // Slow modes are interpolated by the polynomial through the nodes, with an error of
-  // StepNodes::kMiss (|lambda| h)^7 of their amplitude, unless harmonic loads are faster.
-  const double most = std::pow(kOutput * tolerance_ * least_growth(from, to) / StepNodes::kMiss, 1.0 / 7.0) / h;
+  // Slow modes are interpolated by the polynomial through the nodes, unless harmonic loads are faster.
+  const double allowed = kOutput * tolerance_ * least_growth(from, to);
   Index slow = 0;
-  if (loads_.highest_frequency() <= most)
-    while (slow < p && modes_.speed()[slow] <= most) ++slow;
+  if (StepNodes::missed_part(loads_.highest_frequency() * h) <= allowed)
+    while (slow < p && is_polynomial(slow, h, modal(from), modal(to), allowed)) ++slow;
   slow_ = fast_begin_ = slow;
   while (fast_begin_ < p && modes_.speed()[fast_begin_] * h < FastMotion::kLeast) ++fast_begin_;
   if (!fast_motion_.begin(from.t, h, modal(from), modal(to) + 2 * p, fast_begin_)) fast_begin_ = p;
+}
+
+bool CollocationOutputs::is_polynomial(Index mode, double h, const double* begin, const double* end,
+                                       double allowed) const {
+  const Index p = modes_.count();
+  const std::complex<double> lambda{modes_.decay()[mode], modes_.turn()[mode]};
+  const auto at = [p, mode](const double* z) { return std::complex<double>{z[mode], z[p + mode]}; };
+  // The coefficients of the Taylor series of the motion, up to that of s^7.
+  std::complex<double> coefficient = at(begin);
+  for (Index r = 0; r < kCount; ++r)
+    coefficient = (h / static_cast<double>(r + 1)) * (lambda * coefficient + at(end + 2 * p * (r + 1)));
+  return StepNodes::kProduct * std::abs(coefficient) <= allowed * std::max(std::abs(at(begin)), std::abs(at(end)));
 }
 
 void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::Ref<Eigen::VectorXd> z) {

@@ -54,9 +54,9 @@ struct StepNodes {
   };
   static Hermite hermite(double place);
   /// A sine of frequency |lambda| differs from the polynomial through its values at the nodes by
-  /// less than kMiss w^7, w = |lambda| h; kMiss is 1/7! times the largest product of the distances
-  /// from the nodes, 3e-4.
-  static constexpr double kMiss = 3e-4 / 5040.0;
+  /// less than kMiss w^7, w = |lambda| h; kMiss is 1/7! times kProduct, the largest product of the distances
+  /// from the nodes.
+  static constexpr double kProduct = 3e-4, kMiss = kProduct / 5040.0;
   /// Interpolation error of a sine of unit amplitude with w = |lambda| h, at most 2.
   static double missed_part(double w) {
     const double square = w * w;

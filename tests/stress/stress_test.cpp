@@ -149,7 +149,8 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
       "random 400848",   // a residual force that jumps in a step divided for outputs
       "rubbing 70914",   // friction that reverses within a step
       "rubbing 817804",  // a friction support that reverses beside a stop on the same DOF
-      "rubbing 903854"   // a start from rest: the speed grows tenfold in the first step, in which friction sets in
+      "rubbing 903854",  // a start from rest: the speed grows tenfold in the first step, in which friction sets in
+      "wide 9900637"     // velocities within a step of a body far from the stop, whose force varies fast
   };
   std::vector<Method> chosen;
   for (const Method& method : methods())
