@@ -104,11 +104,13 @@ void CollocationOutputs::divide_modes(const State& from, const State& to) {
   if (slow_) return;
   const Index p = modes_.count();
   const double h = to.t - from.t;
-  // Slow modes are interpolated by the polynomial through the nodes, unless harmonic loads are faster.
-  const double allowed = kOutput * tolerance_ * least_growth(from, to);
+  // Slow modes are interpolated by the polynomial through the nodes, with an error of StepNodes::kMiss (|lambda| h)^7
+  // of their amplitude, unless loads or contact forces are faster.
+  const double allowed = kOutput * tolerance_ * least_growth(from, to),
+               most = std::pow(allowed / StepNodes::kMiss, 1.0 / 7.0) / h;
   Index slow = 0;
-  if (StepNodes::missed_part(loads_.highest_frequency() * h) <= allowed)
-    while (slow < p && is_polynomial(slow, h, modal(from), modal(to), allowed)) ++slow;
+  if (loads_.highest_frequency() <= most)
+    while (slow < p && modes_.speed()[slow] <= most && is_polynomial(slow, h, modal(from), modal(to), allowed)) ++slow;
   slow_ = fast_begin_ = slow;
   while (fast_begin_ < p && modes_.speed()[fast_begin_] * h < FastMotion::kLeast) ++fast_begin_;
   if (!fast_motion_.begin(from.t, h, modal(from), modal(to) + 2 * p, fast_begin_)) fast_begin_ = p;
@@ -123,7 +125,8 @@ bool CollocationOutputs::is_polynomial(Index mode, double h, const double* begin
   std::complex<double> coefficient = at(begin);
   for (Index r = 0; r < kCount; ++r)
     coefficient = (h / static_cast<double>(r + 1)) * (lambda * coefficient + at(end + 2 * p * (r + 1)));
-  return StepNodes::kProduct * std::abs(coefficient) <= allowed * std::max(std::abs(at(begin)), std::abs(at(end)));
+  const double least = StepNodes::kProduct / allowed;
+  return least * least * std::norm(coefficient) <= std::max(std::norm(at(begin)), std::norm(at(end)));
 }
 
 void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::Ref<Eigen::VectorXd> z) {

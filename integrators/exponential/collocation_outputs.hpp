@@ -102,9 +102,9 @@ class CollocationOutputs final : public time::Interpolant {
   /// dz/dt for given z and force polynomials.
   void find_rate(double t, double place, const double* forces, const Eigen::Ref<const Eigen::VectorXd>& z,
                  Eigen::VectorXd& rate) const;
-  /// True if the polynomial through the nodes gives the motion of a mode in a step of length h, from `begin` to `end`,
-  /// within `allowed` of its amplitude: the error is at most StepNodes::kProduct of the term of degree 7. Forces that
-  /// vary faster than the mode turns have a part in it.
+  /// True if the polynomial through the nodes gives the response of a mode to the polynomial forces of a step of length
+  /// h, from `begin` to `end`, within `allowed` of its amplitude: the error is at most StepNodes::kProduct of the term
+  /// of degree 7. Forces may vary faster than the mode turns.
   bool is_polynomial(Index mode, double h, const double* begin, const double* end, double allowed) const;
   /// Divides the modes for the step: those that the polynomial through the nodes gives, and those of fast_motion_.
   void divide_modes(const time::State& from, const time::State& to);

@@ -73,9 +73,10 @@ double NodeForces::unresolved(const State& from, const double* z, const ModalLoa
   rate.tail(p).array() += modes_.decay() * im + modes_.turn() * re;
   const bool turns = dofs_.acts_apart() || std::binary_search(discontinuities_.begin(), discontinuities_.end(), from.t);
   for (Index k = 0; k < p; ++k) {
-    const double speed = modes_.speed()[k], turning = turns || speed == 0.0
-                                                          ? amplitude[k]
-                                                          : dofs_.reach()[k] * std::hypot(rate[k], rate[p + k]) / speed;
+    const double speed = modes_.speed()[k],
+                 turning = turns || speed == 0.0
+                               ? amplitude[k]
+                               : dofs_.reach()[k] * std::sqrt(rate[k] * rate[k] + rate[p + k] * rate[p + k]) / speed;
     sum += std::min(amplitude[k], turning) * StepNodes::missed_part(turn[k]);
   }
   scale = std::max(scale, (amplitude * turn.min(1.0)).maxCoeff());

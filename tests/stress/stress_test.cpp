@@ -150,7 +150,8 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
       "rubbing 70914",   // friction that reverses within a step
       "rubbing 817804",  // a friction support that reverses beside a stop on the same DOF
       "rubbing 903854",  // a start from rest: the speed grows tenfold in the first step, in which friction sets in
-      "wide 9900637"     // velocities within a step of a body far from the stop, whose force varies fast
+      "wide 9900637",    // velocities within a step of a body far from the stop, whose force varies fast
+      "space 20002689"   // fast modes under a harmonic load within the first step
   };
   std::vector<Method> chosen;
   for (const Method& method : methods())
