@@ -36,9 +36,9 @@ constexpr std::size_t kKept = 12;
 /// length.
 constexpr int kMostCuts = 5;
 constexpr double kCut = 1e-3, kCoarsestCut = 1e-6;
-/// A step that follows a shortened one starts on the border, up to the error of the located position. Changes within
-/// this fraction of the step are therefore the same change. Without this, a contact that touches a border and returns
-/// would end step after step there.
+/// A step that follows a shortened one starts on a border, up to the error of the located position. Crossings of that
+/// border within this fraction of the step are therefore the same change. Without this, a contact that touches a border
+/// and returns would end step after step there.
 constexpr double kSameChange = 1e-3;
 /// Behind the end of a shortened step a change is searched over this fraction of its length.
 constexpr double kBeyond = 0.02;

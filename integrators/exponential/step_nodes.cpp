@@ -15,6 +15,9 @@ constexpr int kLooks = 32;
 /// A start is on the border if its distance is below this fraction of the distance at the first
 /// sample.
 constexpr double kOnBorder = 1e-3;
+/// A step that follows one which was shortened starts on a border whose distance is below this part of the motion in
+/// the step. Steps are shortened to kCoarsestCut = 1e-6 of their length (modal_collocation.cpp), a tenth of it.
+constexpr double kSameBorder = 1e-5;
 
 Square interpolation(bool has_middle) {
   std::vector<Index> used;
@@ -154,12 +157,14 @@ double StepNodes::first_crossing(const Row& coefficients, double border, const C
     const double distance = at(s);
     return std::abs(distance) > range.rounding ? distance : 0.0;
   };
-  double begin = range.begin, at_begin = beyond_rounding(begin);
+  const bool starts_there = std::abs(at(0.0)) <= kSameBorder * coefficients.tail(kCount - 1).lpNorm<1>();
+  const double first = starts_there ? range.begin : 0.0;
+  double begin = first, at_begin = beyond_rounding(begin);
   for (int k = 1; begin < last; ++k) {
     double end = k <= kLooks ? static_cast<double>(k) / kLooks : last;
     if (end <= begin) continue;
     const double at_end = beyond_rounding(end);
-    if (begin == range.begin && std::abs(at_begin) <= kOnBorder * std::abs(at_end)) at_begin = at_end;
+    if (begin == first && std::abs(at_begin) <= kOnBorder * std::abs(at_end)) at_begin = at_end;
     if (at_begin * at_end < 0.0) {
       while (true) {
         const double middle = 0.5 * (begin + end);

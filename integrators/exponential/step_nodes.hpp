@@ -11,7 +11,8 @@ namespace butee::integrators {
 
 /// Where a step is searched for crossings of a border, as fractions of its length.
 struct CrossingRange {
-  double begin = 0.0, last = 1.0;
+  double begin = 0.0;  ///< crossings before it do not count for a border on which the step starts
+  double last = 1.0;
   double rounding = 0.0;  ///< values that differ from the border by at most this are on it
 };
 

@@ -151,7 +151,8 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
       "rubbing 817804",  // a friction support that reverses beside a stop on the same DOF
       "rubbing 903854",  // a start from rest: the speed grows tenfold in the first step, in which friction sets in
       "wide 9900637",    // velocities within a step of a body far from the stop, whose force varies fast
-      "space 20002689"   // fast modes under a harmonic load within the first step
+      "space 20002689",  // fast modes under a harmonic load within the first step
+      "random 20001750"  // a second border just behind the one at which a step ended
   };
   std::vector<Method> chosen;
   for (const Method& method : methods())
