@@ -61,6 +61,8 @@ struct ModalMotion::Parts {
   void find(double part);
   void find_others(double tau);
   void find_other(Index mode, double tau);
+  /// Finds an oscillating mode that has turned by more than kernel::kLargestAngle.
+  void find_fast(Index mode, double tau);
   /// Finds an overdamped mode in closed form. Returns false where that would lose digits.
   bool find_overdamped(Index mode, double tau);
   /// Adds the steady-state responses at the instant of the last kept_at().
@@ -77,6 +79,7 @@ struct ModalMotion::Parts {
   std::vector<Kept> kept_;
   std::vector<kernel::KeptUp> kept_up_;
   std::vector<Index> resonant_, damped_;  ///< modes without closed form; the damped ones use a series while slow
+  std::vector<char> is_oscillation_;      ///< of each mode: it is neither of them
 
   double t_ = 0.0, h_ = 0.0;
   ArrayXd q0_, v0_;  ///< without the steady-state response
@@ -158,6 +161,9 @@ ModalMotion::Parts::Parts(const ArrayXd& omega, const ArrayXd& delta, const std:
   }
   for (Index i = 0; i < n; ++i)
     if (is_resonant[static_cast<std::size_t>(i)]) resonant_.push_back(i);
+  is_oscillation_.assign(static_cast<std::size_t>(n), 1);
+  for (const auto* others : {&resonant_, &damped_})
+    for (const Index i : *others) is_oscillation_[static_cast<std::size_t>(i)] = 0;
 }
 
 Index ModalMotion::padded(Index modes) {
@@ -271,7 +277,17 @@ void ModalMotion::Parts::find_others(double tau) {
   for (const Index i : resonant_) find_other(i, tau);
   for (const Index i : damped_)
     if ((omega_[i] + delta_[i]) * tau > kernel::kSlow && !find_overdamped(i, tau)) find_other(i, tau);
-  for (Index i = omega_.size(); i-- > 0 && omega_[i] * tau > kernel::kLargestAngle;) find_other(i, tau);
+  for (Index i = omega_.size(); i-- > 0 && omega_[i] * tau > kernel::kLargestAngle;)
+    if (is_oscillation_[static_cast<std::size_t>(i)] != 0) find_fast(i, tau);
+}
+
+void ModalMotion::Parts::find_fast(Index i, double tau) {
+  const double decayed = std::exp(-delta_[i] * tau), angle = frequency_[i] * tau, c = decayed * std::cos(angle),
+               s = decayed * std::sin(angle), a = cosine_[i], b = sine_[i];
+  q_[i] = a * c + b * s + led_[0][i] + tau * (led_[1][i] + tau * led_[2][i]);
+  v_[i] = (b * frequency_[i] - delta_[i] * a) * c - (a * frequency_[i] + delta_[i] * b) * s + led_[1][i] +
+          2.0 * tau * led_[2][i];
+  add_kept(i);
 }
 
 bool ModalMotion::Parts::find_overdamped(Index i, double tau) {

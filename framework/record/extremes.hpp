@@ -45,14 +45,14 @@ struct Range {
 /// than kGood of it, or by more than kGood of its distance from a border: at a stop that is stiff the penetration is a
 /// small part of the displacement. If so, halves are examined: halves of the polynomial, or of the interval while the
 /// dense output departs from the polynomial by more than that. The search in an interval stops after kMostSamples,
-/// which is too few only if a step spans hundreds of periods. In very short steps the polynomial's derivatives are
+/// which is too few only if a step spans thousands of periods. In very short steps the polynomial's derivatives are
 /// differences of rounded displacements; values between the ends then count only if they exceed the range by more than
 /// rounding. Checked in tests/verification/peaks_test.cpp.
 class BUTEE_EXPORT StepPath {
  public:
   /// The error bound of an extreme, relative to the largest |value|.
   static constexpr double kGood = 1e-10;
-  static constexpr int kMostSamples = 4000;
+  static constexpr int kMostSamples = 65536;
   /// The largest difference between the derivative of the quintic and that of
   /// Interpolation::near_quintic, relative to the largest |value|.
   static constexpr double kMargin = 0.005;

@@ -18,6 +18,10 @@ using OfModes = std::array<ArrayXd, 7>;
 
 /// Nearer to critical damping, with |delta^2 - omega^2| below this part of omega^2, both rates are about the same.
 constexpr double kCritical = 1e-2;
+/// The decay of free motion is that at the beginning of one of so many equal pieces of a step.
+constexpr double kPieces = 64.0;
+/// Lengths that differ by less than this part are the same.
+constexpr double kSameLength = 1e-6;
 
 // The departures from a quintic over h of motion whose derivatives are at most of[0], of[1], of[2] and of[6]. The sums
 // of the Hermite functions and of their derivatives also bound the difference from a quintic.
@@ -49,7 +53,8 @@ DerivativeBounds::DerivativeBounds(const dynamics::ModalSystem& modal, const Bre
 void DerivativeBounds::find(std::size_t breakpoint) {
   if (known_ == breakpoint) return;
   known_ = breakpoint;
-  const double t = breakpoints_.time(breakpoint), h = breakpoints_.time(breakpoint + 1) - t;
+  since_ = -1.0;
+  const double t = breakpoints_.time(breakpoint), h = longest_ = breakpoints_.time(breakpoint + 1) - t;
   std::array<ArrayXd, 5> load;  // bounds of f and its first four derivatives
   for (ArrayXd& bound : load) bound.setZero(modal_.size());
   for (const dynamics::ModalHarmonic& harmonic : modal_.harmonics()) {
@@ -135,6 +140,7 @@ void DerivativeBounds::find(Index i, double t, double h, double q, double v) {
 }
 
 void DerivativeBounds::find_bounds(double since) {
+  for (std::vector<ArrayXd>& known : departures_) known.clear();
   const auto raise = [since](const Decaying& part, OfModes& of) {
     ArrayXd size = part.amplitude * (-since * part.decay).exp();
     for (ArrayXd& bound : of) {
@@ -148,20 +154,36 @@ void DerivativeBounds::find_bounds(double since) {
   raise(fast_, of_fast_);
 }
 
+ArrayXd DerivativeBounds::find_of_modes(std::size_t order, double h) const {
+  const auto departure_of = std::array{departure_of_x, departure_of_v, departure_of_a}[order];
+  return (departure_of(h, of_) + departure_of(h, of_fast_)).min(departure_of(h, by_energy_));
+}
+
+const ArrayXd& DerivativeBounds::of_modes(std::size_t order, double h) {
+  const double halvings = std::round(std::log2(longest_ / h));
+  if (!(halvings >= 0.0) || std::abs(std::exp2(halvings) * h - longest_) > kSameLength * longest_)
+    return of_other_ = find_of_modes(order, h);
+  std::vector<ArrayXd>& known = departures_[order];
+  const auto place = static_cast<std::size_t>(halvings);
+  if (known.size() <= place) known.resize(place + 1);
+  if (known[place].size() == 0)
+    known[place] = find_of_modes(order, (1.0 + kSameLength) * std::ldexp(longest_, -static_cast<int>(place)));
+  return known[place];
+}
+
 void DerivativeBounds::departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
   const std::size_t breakpoint = breakpoints_.before(begin);
   find(breakpoint);
-  const double h = end - begin;
-  find_bounds(begin - breakpoints_.time(breakpoint));
-  const auto put = [&](std::span<double> to, ArrayXd (*departure_of)(double, const OfModes&)) {
-    if (to.empty()) return;
-    const ArrayXd of_mode = (departure_of(h, of_) + departure_of(h, of_fast_)).min(departure_of(h, by_energy_));
+  const double t = breakpoints_.time(breakpoint),
+               since = std::floor((begin - t) / longest_ * kPieces) / kPieces * longest_;
+  if (since != since_) find_bounds(since_ = since);
+  const std::array<std::span<double>, 3> wanted = {out.x, out.v, out.a};
+  for (std::size_t order = 0; order < wanted.size(); ++order) {
+    if (wanted[order].empty()) continue;
+    const ArrayXd& of_mode = of_modes(order, end - begin);
     for (std::size_t i = 0; i < dofs.size(); ++i)
-      to[i] = (modal_.shape_rows().col(dofs[i]).array().abs() * of_mode).sum();
-  };
-  put(out.x, departure_of_x);
-  put(out.v, departure_of_v);
-  put(out.a, departure_of_a);
+      wanted[order][i] = (modal_.shape_rows().col(dofs[i]).array().abs() * of_mode).sum();
+  }
 }
 
 }  // namespace butee::integrators

@@ -38,11 +38,20 @@ class DerivativeBounds {
   /// of_ := the bounds of the forced and free motion at `since` behind the breakpoint without the fast parts, and
   /// of_fast_ := those of these.
   void find_bounds(double since);
+  /// Bounds of the departures of x, v or a (order 0, 1, 2) of each mode from a quintic over h. Searches halve the step
+  /// again and again; the bounds for these lengths are kept.
+  const Eigen::ArrayXd& of_modes(std::size_t order, double h);
+  Eigen::ArrayXd find_of_modes(std::size_t order, double h) const;
 
   const dynamics::ModalSystem& modal_;
   const Breakpoints& breakpoints_;
   std::size_t known_ = kNone;  ///< the breakpoint for which the bounds are valid
+  double longest_ = 0.0;       ///< length of the step that begins there, s
+  double since_ = -1.0;        ///< s behind the breakpoint, of the last find_bounds(); below 0: none
   OfModes by_energy_, forced_, of_, of_fast_;
+  /// The bounds by order and number of halvings, and those of the last length that is no such part of the step.
+  std::array<std::vector<Eigen::ArrayXd>, 3> departures_;
+  Eigen::ArrayXd of_other_;
   Decaying free_;  ///< or the slow part of an overdamped mode
   Decaying fast_;  ///< the fast part of an overdamped mode; amplitude 0: others
 };

@@ -27,6 +27,9 @@ constexpr Index kExtras = 6;
 /// Allowed error of outputs within a step without contact, in tolerances. The next step starts from
 /// the exact state.
 constexpr double kOutputs = 2.0;
+/// Without stops a step ends where the fastest motion that matters has turned by this angle, rad: searches for peaks
+/// examine every period, and a run can be interrupted between steps.
+constexpr double kMostTurn = 4e3;
 
 /// The bound of a path's departure from the cubic in the middle of a step, relative to the
 /// displacement scale. The path contains the departure, and the error falls with its power 3/2 in
@@ -89,6 +92,29 @@ Exponential<Step>::Exponential(dynamics::Dynamics& dynamics, const ExponentialOp
       load_kinks_(dynamics.load_discontinuities()),
       step_(dynamics, modal_, step_goal(options), kMacroStep),
       sizes_(first_index()) {}
+
+template <class Step>
+double Exponential<Step>::longest_without_stops(const State& from, double wanted) const {
+  const Eigen::ArrayXd &omega = modal_.frequencies(), &delta = modal_.decay();
+  double fastest = 0.0;
+  for (const dynamics::ModalHarmonic& load : modal_.harmonics())
+    fastest = std::max(fastest, std::abs(load.angular_frequency));
+  if (std::max(fastest, omega.maxCoeff()) * wanted <= kMostTurn) return wanted;
+  // The speeds of free motion, and of that which harmonic loads start.
+  const Index n = modal_.size();
+  const auto q = from.memory.head(n).array(), v = from.memory.segment(n, n).array();
+  Eigen::ArrayXd speed = -omega.square() * q - 2.0 * delta * v;
+  modal_.add_load(from.t, speed);
+  speed = (omega > 0.0).select((v.square() + (speed / omega).square()).sqrt(), v.abs());
+  for (const dynamics::ModalHarmonic& load : modal_.harmonics()) {
+    const double turn = std::abs(load.angular_frequency);
+    if (turn > 0.0) speed += (load.cosine.abs() + load.sine.abs()) * turn / omega.max(turn).square();
+  }
+  const double least = options_.tolerance * speed.maxCoeff();
+  for (Index k = 0; k < n; ++k)
+    if (speed[k] > least && delta[k] < omega[k]) fastest = std::max(fastest, omega[k]);
+  return fastest * wanted > kMostTurn ? kMostTurn / fastest : wanted;
+}
 
 template <class Step>
 int Exponential<Step>::first_index() const {
@@ -178,6 +204,7 @@ StepReport Exponential<Step>::follow(const State& from, double end, int most, do
     // A load that begins drives it out of the middle.
     if (step_.rests_in_middle()) end = std::min(end, next_load_discontinuity(from.t));
   }
+  if (!step_.has_stops()) end = std::min(end, from.t + longest_without_stops(from, end - from.t));
   StepReport report;
   report.inner_steps = 0;
   while (report.inner_steps < most && step_.t() < std::min(end, until)) {

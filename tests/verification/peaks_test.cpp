@@ -503,5 +503,55 @@ TEST(PeaksOfHiddenModes, AreThoseOfExact) {
   }
 }
 
+/// Free vibration of two masses on springs, sum A cos(omega t) of incommensurate frequencies, over 20 000 periods of
+/// the slower mode without a row in between: the largest |x'| is the sum of the amplitudes of both speeds, which the
+/// motion nearly reaches.
+TEST(PeaksOfLongSteps, AreThoseOfTheClosedForm) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+      "\"b\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = \"a\"\nstiffness = 1.0\n[[element]]\ntype = "
+      "\"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 400.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"b\"\nstiffness = 1.0\n[initial]\ndisplacement = [{ nodes = \"a\", value = 1.0 }]\n[integrator]\ntype = "
+      "\"exponential\"\nend_time = 5000.0\n";
+  // x_a = (cos t + cos(801^(1/2) t))/2
+  const double fast = std::sqrt(801.0), speed = 0.5 * (1.0 + fast);
+  SceneRun run(scene);
+  model::OutputRequest request;
+  request.interval = 5000.0;
+  request.probes = {
+      {"a", run.model().nodes.select("a").nodes.front(), {model::Quantity::uy, model::Quantity::uy_v}, ""}};
+  record::HistoryRecorder history(request, 5000.0, run.dynamics(), nullptr);
+  run.simulation().add(history);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  EXPECT_NEAR(history.peaks().at("a.uy_v"), speed, 1e-6 * speed);
+  EXPECT_NEAR(history.peaks().at("a.uy"), 1.0, 1e-9);
+}
+
+/// A pinned beam under a harmonic load, thousands of periods of its fastest modes with one row at the end; `exact`
+/// takes short steps.
+TEST(PeaksOfLongSteps, AreThoseOfExact) {
+  const std::string beam =
+      "schema = 1\n[material.s]\nyoung_modulus = 2.1e11\ndensity = 7800.0\n[section.p]\nshape = "
+      "\"tube\"\nouter_radius = 0.03\ninner_radius = 0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = "
+      "\"s\"\nsection = \"p\"\nlength = 3.0\nelements = 6\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = "
+      "[\"u\"]\n[[load]]\ntype = \"harmonic\"\nnode = \"b:2\"\namplitude = 300.0\nangular_frequency = "
+      "211.0\n[integrator]\nend_time = 1.0\n";
+  std::map<std::string, double> expected;
+  for (const std::string method : {"exact", "exponential"}) {
+    SceneRun run(beam, {"integrator.type=" + method});
+    model::OutputRequest request;
+    request.interval = 1.0;
+    request.probes = {{"p",
+                       run.model().nodes.select("b:2").nodes.front(),
+                       {model::Quantity::uy, model::Quantity::uy_v, model::Quantity::rz, model::Quantity::rz_v},
+                       ""}};
+    record::HistoryRecorder history(request, 1.0, run.dynamics(), nullptr);
+    run.simulation().add(history);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    if (expected.empty()) expected = history.peaks();
+    for (const auto& [column, peak] : expected) EXPECT_NEAR(history.peaks().at(column), peak, 1e-8 * peak) << column;
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::peaks_test
