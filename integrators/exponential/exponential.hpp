@@ -25,11 +25,12 @@ struct ExponentialOptions {
 ///     q(t+h) = propagate(q, load) + sum_k R_k(omega h) Phi^T f_k, f_k = (2k+1) int_0^1 P_k(s) F_c(w(s)) ds
 ///
 /// Modes, damping and harmonic or piecewise parabolic loads are integrated without error; without
-/// stops a step reaches from one output to the next, but for the turn of the fastest motion (kMostTurn). Over a step
-/// the force of a stop is projected onto the Legendre polynomials P_0, P_1, P_2 along its path w(s), a quartic through
-/// the displacements and speeds at both ends and the displacement in the middle. These values depend on the forces, so
-/// that f is found by iteration over the stops near their gaps; it contracts by (h omega_c)^2/26 or faster, omega_c^2 =
-/// k_c S M^-1 S^T. Changes of contact within a step are integrated piece by piece; they need no event location.
+/// stops a step reaches from one output to the next, or until the fastest motion has turned by kMostTurn.
+/// Over a step the force of a stop is projected onto the Legendre polynomials P_0, P_1, P_2 along its
+/// path w(s), a quartic through the displacements and speeds at both ends and the displacement in the
+/// middle. These values depend on the forces, so that f is found by iteration over the stops near their
+/// gaps; it contracts by (h omega_c)^2/26 or faster, omega_c^2 = k_c S M^-1 S^T. Changes of contact
+/// within a step are integrated piece by piece; they need no event location.
 ///
 /// The order is 6 away from changes of contact; across them it is 4 with small constants. Step sizes lie on a geometric
 /// grid of ratio sqrt(2). They are controlled by the displacement in the middle, which the propagator of half a step

@@ -39,6 +39,7 @@ class ModalLoads {
   struct Response {
     double angular_frequency;        ///< |Omega|, rad/s
     Eigen::ArrayXd force, slowness;  ///< of each mode: |f|, and 1/|i Omega - lambda|, s
+    Eigen::ArrayXd displacement;     ///< half of the steady displacement of each mode, relative to its shape
   };
 
   const dynamics::DampedModes& modes_;

@@ -149,6 +149,52 @@ TEST(RigidMotion, OnSoftSpringsIsNoRigidMotion) {
   }
 }
 
+/// Two masses joined by a spring and a dashpot, driven, whose stop is out of reach: steps are as long without a spring
+/// to ground, or with a soft one, as with a stiff one.
+TEST(RigidMotion, UnderLoadsTakesLongSteps) {
+  const auto steps_of = [](const std::string& more) {
+    SceneRun run(R"(schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 0.8
+[[element]]
+type = "mass"
+name = "b"
+mass = 0.9
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+stiffness = 787.0
+damping = 0.9
+[[contact]]
+type = "stop"
+nodes = "a"
+gap = 1000.0
+stiffness = 1e4
+damping = { type = "kelvin_voigt", coefficient = 1.0 }
+[[load]]
+type = "harmonic"
+node = "a"
+amplitude = 0.12
+angular_frequency = 20.0
+[initial]
+displacement = [{ nodes = "b", value = 1e-3 }]
+[integrator]
+type = "exponential"
+tolerance = 1e-6
+end_time = 2.0
+)" + more);
+    EXPECT_TRUE(run.run().completed);
+    return run.simulation().report().steps;
+  };
+  const auto grounded = steps_of("[[element]]\ntype = \"spring\"\nnode = \"a\"\nstiffness = 100.0\n"),
+             soft = steps_of("[[element]]\ntype = \"spring\"\nnode = \"a\"\nstiffness = 1e-6\n"), free = steps_of("");
+  // It took 40 times as many.
+  EXPECT_LT(free, 8 * grounded);
+  EXPECT_LT(soft, 2 * grounded);
+}
+
 INSTANTIATE_TEST_SUITE_P(methods, RigidMotion, testing::ValuesIn(all_methods()),
                          [](const auto& instance) { return instance.param.name; });
 
