@@ -27,6 +27,10 @@ constexpr double kAtLine = 1e-6;
 constexpr double kAside = 1e-4, kLargestShift = 1e-2;
 /// More secants are not needed unless the frequency jumps (chosen).
 constexpr int kMostSecants = 40;
+/// Intervals of speed are halved this often where stability may change and change back, and a margin is near zero below
+/// this part of its values around; of fewer than kFewestIntervals intervals each is halved more often (chosen).
+constexpr int kLeastLooks = 2, kMostLooks = 7;
+constexpr double kNearZero = 0.5, kFewestIntervals = 16.0, kRoundings = 8.0;
 
 /// The modes at a speed, each with its margin from a limit: its frequency above the excitation's, or its growth rate.
 /// Modes with a positive margin are counted; a critical speed or a border of stability changes their number.
@@ -54,8 +58,37 @@ class Search {
       : at_(std::move(at)), add_(std::move(add)), tolerance_(tolerance), rounding_(rounding) {}
 
   void between(const Tally& a, const Tally& b) const { find(a, b, false); }
+  /// The same, where counts may change and change back: intervals are halved twice, and further where the margins may
+  /// reach 0 in between, down to 2^(looks - kMostLooks) of the whole.
+  void all_between(const Tally& a, const Tally& b, int looks) const {
+    if (looks == kMostLooks) return between(a, b);
+    const Tally middle = at_(0.5 * (a.speed + b.speed));
+    const bool is_same = a.count() == middle.count() && middle.count() == b.count();
+    if (looks >= kLeastLooks && !(is_same && may_vanish(a, middle, b))) {
+      between(a, middle);
+      return between(middle, b);
+    }
+    all_between(a, middle, looks + 1);
+    all_between(middle, b, looks + 1);
+  }
 
  private:
+  /// Whether a margin that keeps its sign may vanish in between: the parabola through three values comes near to 0.
+  bool may_vanish(const Tally& a, const Tally& middle, const Tally& b) const {
+    for (const Index k : {a.count() - 1, a.count()}) {
+      if (k < 0 || k >= std::min({std::ssize(a.margins), std::ssize(middle.margins), std::ssize(b.margins)})) continue;
+      const double m0 = a.margin(k), m1 = middle.margin(k), m2 = b.margin(k), slope = 0.5 * (m2 - m0),
+                   bend = m2 - 2.0 * m1 + m0, least = std::min({std::abs(m0), std::abs(m1), std::abs(m2)});
+      const double place = bend != 0.0 ? -slope / bend : 2.0,
+                   lowest = std::abs(place) < 1.0 ? std::abs(m1 + 0.5 * slope * place) : least;
+      const bool crosses = std::abs(place) < 1.0 && (m1 + 0.5 * slope * place > 0.0) != (m1 > 0.0);
+      const double largest = std::max({std::abs(m0), std::abs(m1), std::abs(m2)});
+      // Without damping margins are rounding.
+      if (largest > kRoundings * rounding_ && (crosses || lowest < kNearZero * largest)) return true;
+    }
+    return false;
+  }
+
   /// Secants find one change; if rounding moves it, the interval is halved.
   void find(const Tally& a, const Tally& b, bool halves) const {
     if (a.count() == b.count()) return;
@@ -200,8 +233,12 @@ std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<ModesAtS
   const Search search(
       [&](double speed) { return tally_of(speed, eigenvalues(speed, all)); }, add, kSameBorder,
       grid.empty() ? 0.0 : rounding(std::max(std::abs(grid.front().speed), std::abs(grid.back().speed))));
+  // Few speeds are far from each other.
+  const double intervals = std::max(1.0, static_cast<double>(grid.size()) - 1.0);
+  const int looks = is_dense() ? -std::max(0, static_cast<int>(std::ceil(std::log2(kFewestIntervals / intervals)))) : 0;
   for (std::size_t i = 1; i < grid.size(); ++i)
-    search.between(tally_of(grid[i - 1].speed, grid[i - 1].eigenvalues), tally_of(grid[i].speed, grid[i].eigenvalues));
+    search.all_between(tally_of(grid[i - 1].speed, grid[i - 1].eigenvalues),
+                       tally_of(grid[i].speed, grid[i].eigenvalues), looks);
   return found;
 }
 

@@ -54,6 +54,28 @@ TEST_F(ModesCommand, PinnedBeamHasItsFrequenciesRatiosAndEffectiveMasses) {
   }
 }
 
+/// Gyroscopic moments bring the frequency of a whirl, which starts at 100 rad/s, to that of a mode of 110 rad/s; an
+/// antisymmetric stiffness couples both, so that motion grows from 17.2538314 to 20.8673208 rad/s (eigenvalues of the
+/// first-order system by LAPACK). The speeds of the diagram lie around that.
+TEST_F(ModesCommand, FindsAWindowOfInstabilityBetweenFewSpeeds) {
+  const std::string head = "%%MatrixMarket matrix coordinate real ";
+  folder_.write("M.mtx", head + "general\n3 3 3\n1 1 1.0\n2 2 1.0\n3 3 1.0\n");
+  folder_.write("C.mtx", head + "general\n3 3 3\n1 1 0.2\n2 2 0.2\n3 3 0.2\n");
+  folder_.write("G.mtx", head + "skew-symmetric\n3 3 1\n2 1 -1.0\n");
+  folder_.write("K.mtx", head + "general\n3 3 5\n1 1 10000.0\n3 1 -150.0\n2 2 10000.0\n1 3 150.0\n3 3 12100.0\n");
+  folder_.write("dofs.txt", "0 uy\n0 uz\n1 uy\n");
+  folder_.write("scene.toml",
+                "schema = 1\n[[element]]\ntype = \"matrices\"\nname = \"b\"\nmass = \"M.mtx\"\nstiffness = "
+                "\"K.mtx\"\ndamping = \"C.mtx\"\ngyroscopic = \"G.mtx\"\ndofs = \"dofs.txt\"\n[rotation]\nspeed = "
+                "19.0\n[integrator]\nend_time = 1.0\n");
+  for (const char* steps : {"2", "4", "8", "30"}) {
+    const Json borders = json({"scene.toml", "--campbell", "0", "200", steps})["stability_borders"];
+    ASSERT_EQ(borders.size(), 2U) << steps << borders.dump();
+    EXPECT_NEAR(borders[0]["speed"].get<double>(), 17.253831358, 1e-6) << steps;
+    EXPECT_NEAR(borders[1]["speed"].get<double>(), 20.867320768, 1e-6) << steps;
+  }
+}
+
 /// A disc on an isotropic bearing of stiffness k: its unbalance meets the translational modes at
 /// sqrt(k/m), whatever the speed.
 TEST_F(ModesCommand, TheCampbellDiagramHasTheCriticalSpeedOfADisc) {

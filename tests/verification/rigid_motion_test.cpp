@@ -149,8 +149,8 @@ TEST(RigidMotion, OnSoftSpringsIsNoRigidMotion) {
   }
 }
 
-/// Two masses joined by a spring and a dashpot, driven, whose stop is out of reach: steps are as long without a spring
-/// to ground, or with a soft one, as with a stiff one.
+/// Two masses joined by a spring and a dashpot, driven, whose stop is out of reach: steps are not far shorter without a
+/// spring to ground, or with a soft one, than with a stiff one.
 TEST(RigidMotion, UnderLoadsTakesLongSteps) {
   const auto steps_of = [](const std::string& more) {
     SceneRun run(R"(schema = 1
