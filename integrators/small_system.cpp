@@ -25,7 +25,7 @@ std::string SmallSystem::obstacle_to(dynamics::Dynamics& dynamics) {
     return std::to_string(system.size()) + " DOFs are more than the " + std::to_string(kMostDofs) +
            " that piecewise takes";
   if (!system.is_symmetric || system.rotation != nullptr)
-    return "shafts turn or bearings have cross terms, so that the matrices are not symmetric";
+    return "shafts turn, or bearings or given matrices have cross terms, so that the matrices are not symmetric";
   for (const model::FreeStops& stops : system.stops) {
     if (!stops.law->is_piecewise_linear()) return "piecewise needs stops with law = \"linear\"";
     if (stops.play.has_both() && stops.play.gap < 0.0)

@@ -169,6 +169,8 @@ class NumberFile {
       if (found == known.end())
         refuse(lines_.number, "names no column \"" + names_[i] + "\"" + suggestion(names_[i], known) +
                                   "; it names: " + printable(join(known).substr(0, 400)));
+      if (std::find(found + 1, known.end(), names_[i]) != known.end())
+        refuse(lines_.number, "names two columns \"" + names_[i] + "\"; count columns from 1 instead");
       places_[i] = static_cast<std::size_t>(found - known.begin());
     }
   }
@@ -202,7 +204,8 @@ class NumberFile {
       refuse(
           lines_.number,
           where + shown(field) + " is not a number" +
-              (separator_ == ';' && field.find(',') != std::string_view::npos ? "; write decimals with a point" : ""));
+              (separator_ == ';' && field.find(',') != std::string_view::npos ? "; write decimals with a point" : "") +
+              (field.find_first_of("dD") != std::string_view::npos ? "; write exponents with e" : ""));
     if (!std::isfinite(*number)) refuse(lines_.number, where + shown(field) + " is not finite");
     return *number;
   }

@@ -23,7 +23,7 @@ model::System assemble_to_run(const model::Model& model) {
   if (!system.damping.is_modal() || system.is_symmetric) return system;
   if (system.size() > kMostModalDashpots)
     throw InputError(
-        "damping.modal: if shafts turn or bearings have cross terms, systems of more than " +
+        "damping.modal: if shafts turn, or bearings or given matrices have cross terms, systems of more than " +
         std::to_string(kMostModalDashpots) + " free DOFs (this one has " + std::to_string(system.size()) +
         ") cannot have modal damping, whose matrix is dense; give mass_proportional and stiffness_proportional");
   model::System rest = assemble(model, model::TurningParts::apart);

@@ -130,6 +130,8 @@ std::string interval_of(const Trust::Statistic& s) {
 }  // namespace
 
 std::string describe(const Trust& trust) {
+  if (trust.statistics.empty())
+    return "  trust: nothing is judged, since the scene requests no quantity; add an [[output.probe]]\n";
   std::vector<std::string> beside;
   if (!trust.other.empty()) beside.push_back("a run by " + trust.other);
   if (!trust.tightened.empty()) beside.push_back("one with " + trust.tightened);

@@ -191,14 +191,16 @@ std::vector<NodalValue> SceneReader::rigid_rotation(const Parameters& p, const s
       p.complain(diagnostics_, "nodes", model_.nodes.name(node) + " is not a node of a beam, so it has no coordinate");
       return {};
     }
-    const double x = group.coordinates[static_cast<std::size_t>(node - group.first)];
-    values.push_back({{node, DofKind::u}, rotation * (x - about)});
+    // Along the beam; the axis of the rotation is parallel to z.
+    const double arm = group.coordinates[static_cast<std::size_t>(node - group.first)] - about;
+    values.push_back({{node, DofKind::u}, rotation * arm * group.direction[0]});
+    if (group.direction[1] != 0.0) values.push_back({{node, DofKind::ux}, -rotation * arm * group.direction[1]});
     values.push_back({{node, DofKind::theta}, rotation});
-    largest = std::max(largest, std::abs(values[values.size() - 2].value));
+    largest = std::max(largest, std::abs(rotation * arm));
   }
   // A support on the axis of the rotation does not prevent it.
   std::erase_if(values, [&](const NodalValue& value) {
-    return dofs_->exists(value.dof) && dofs_->is_fixed(value.dof) && value.dof.kind == DofKind::u &&
+    return dofs_->exists(value.dof) && dofs_->is_fixed(value.dof) && value.dof.kind != DofKind::theta &&
            std::abs(value.value) <= kUnmoved * largest;
   });
   return values;

@@ -116,6 +116,11 @@ class AxisReader {
                        join(table.names));
         return std::nullopt;
       }
+      if (std::find(found + 1, table.names.end(), wanted) != table.names.end()) {
+        p.complain(diagnostics_, p.has("column") ? "column" : "file",
+                   path + " has two columns \"" + wanted + "\"; rename one of them");
+        return std::nullopt;
+      }
       const auto column = static_cast<std::size_t>(found - table.names.begin());
       for (const auto& row : table.rows) axis.values.push_back(value_of(row[column]));
     } catch (const InputError& error) {

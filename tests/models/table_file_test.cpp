@@ -93,6 +93,9 @@ TEST_F(TableFile, RefusesWhatIsNoTableWithItsLine) {
   refused("0,0\n1,1\n", "t.csv: holds no numbers", "skip = 9");
   refused("time,force\n0,0\n", "t.csv:1: names no column \"forc\" (did you mean \"force\"?); it names: time, force",
           "columns = [\"time\", \"forc\"]");
+  refused("time,forc,forc\n0,0,0\n", "t.csv:1: names two columns \"forc\"; count columns from 1 instead",
+          "columns = [\"time\", \"forc\"]");
+  refused("0,0\n1,1D0\n", "t.csv:2: column 2: \"1D0\" is not a number; write exponents with e");
   refused("Time (s),\"Force, N\"\n0,0\n", "t.csv:1: names no column \"Force\"; it names: Time (s), Force, N",
           "columns = [\"Time (s)\", \"Force\"]");
   refused("0,0\n", "t.csv:1: has no column names, but columns requests \"t\"", "columns = [\"t\", \"f\"]");

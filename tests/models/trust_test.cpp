@@ -328,6 +328,8 @@ TEST_P(Trust, BoundsTheErrorHoldsThePeaksAndKnowsChaos) {
 /// Behind the horizon the motion is unknown unless a bound of its error is known there.
 TEST(TrustText, ForetellsNothingWhereNoBoundIsKnown) {
   record::Trust trust;
+  EXPECT_NE(record::describe(trust).find("nothing is judged"), std::string::npos);
+  trust.statistics = {{"largest |m.u|", 1.0, 0.9, 1.1}};
   trust.chaotic = true;
   trust.accuracy = 1e-3;
   trust.horizon = 0.27;

@@ -195,6 +195,40 @@ end_time = 2.0
   EXPECT_LT(soft, 2 * grounded);
 }
 
+/// A free beam in any direction starts in rigid rotation about an axis along z and does not strain.
+TEST(RigidMotion, ByAnInitialRotationOfABeamInSpace) {
+  for (const char* points : {"[[0, 0, 0], [1, 1, 0]]", "[[2, 0, 0], [0, 0, 0]]", "[[0, 0, 0], [-1, 2, 0]]"}) {
+    SceneRun run(std::string(R"(schema = 1
+[material.m]
+young_modulus = 2.1e11
+density = 7800.0
+poisson_ratio = 0.3
+[section.s]
+shape = "circle"
+radius = 0.02
+[[element]]
+type = "beam"
+name = "b"
+material = "m"
+section = "s"
+motion = "spatial"
+elements = 4
+[initial]
+velocity = [{ nodes = "b:all", rotation = 1.5, about = 0.7 }]
+[integrator]
+end_time = 1e-3
+)"),
+                 {std::string("element[0].points=") + points});
+    const auto& v = run.system().initial_velocity;
+    const double kinetic = 0.5 * v.dot(run.system().mass * v);
+    EXPECT_GT(kinetic, 1.0) << points;
+    ASSERT_TRUE(run.run().completed);
+    const auto& x = run.simulation().state().x;
+    // x = v t, which strains nothing.
+    EXPECT_LT(0.5 * x.dot(run.system().stiffness * x), 1e-9 * kinetic) << points;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(methods, RigidMotion, testing::ValuesIn(all_methods()),
                          [](const auto& instance) { return instance.param.name; });
 

@@ -39,7 +39,8 @@ std::string model_text(const plugin::Catalogue&) {
   [initial]
   displacement = [{ nodes = "rotor", dof = "u", value = 1.0e-3 }]     # m, rad
   velocity     = [{ nodes = "rotor", dof = "u", value = 0.2 }]        # m/s, rad/s
-  # { nodes = "b:all", rotation = -3.8, about = 0.0 } is a rigid rotation of a beam: u = rotation (x - about), theta = rotation
+  # { nodes = "b:all", rotation = -3.8, about = 0.0 } is a rigid rotation of a beam: u = rotation (x - about), theta = rotation;
+  # of a beam by points it turns about an axis along z through the point of that coordinate
   from      = "other-results"    # start from the final motion of another run of this structure; `displacement` and `velocity`
                                  # lists override parts of it
   at        = 0.5                # s: start from this instant instead of the end; it must be one of that run's [output] states
@@ -123,13 +124,12 @@ u. All include the element's own inertia, gyroscopic moments, weight and base mo
 serves for scenes without shafts. `--campbell FROM TO N` prints the critical speeds and those at which modes begin or
 cease to grow, with -o and --plot the Campbell diagram of the -n lowest modes. All modes are examined, or with more
 than 160 degrees of freedom the lowest ones, up to frequencies above the largest speed, 160 at most. Where a mode
-begins and ceases to grow between two of the N + 1 speeds, at least a quarter of their distance apart is seen, mostly a
-hundredth. `butee plot`
-draws orbits (uz over uy, in the rings and between the stops of the node), run-up (the radius over the speed),
-full-spectrum (forward and backward whirl), frame (the deformed structure in space), contact-map (closed contacts over
-time and length) and wear (the powers of wear.csv over the length). If shafts turn or bearings have cross terms, the
-matrices are not symmetric. exponential, rodas4, dopri5, extrapolation8, exact and all methods with fixed steps take
-them; auto chooses among them.
+begins and ceases to grow between two of the N + 1 speeds, at least a quarter of their distance apart is seen, mostly
+a hundredth. `butee plot` draws orbits (uz over uy, in the rings and between the stops of the node), run-up (the
+radius over the speed), full-spectrum (forward and backward whirl), frame (the deformed structure in space),
+contact-map (closed contacts over time and length) and wear (the powers of wear.csv over the length). If shafts turn,
+or bearings or given matrices have cross terms, the matrices are not symmetric. exponential, rodas4, dopri5,
+extrapolation8, exact and all methods with fixed steps take them; auto chooses among them.
 )";
 }
 
