@@ -284,7 +284,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   }
   if (dynamics.obstacles() != nullptr) return choose_for_obstacles(dynamics, rates, tolerance);
   if (!dynamics.system().is_symmetric)
-    return {Method::rodas4, "shafts turn, or bearings or given matrices have cross terms, so that the matrices are not symmetric"};
+    return {Method::rodas4,
+            "shafts turn, or bearings or given matrices have cross terms, so that the matrices are not symmetric"};
   if (n > most) return {Method::rodas4, size + " are too many for all their modes"};
   if (n > 1 && dynamics.system().dashpots.size() > 0) return {Method::rodas4, "dashpots couple the modes"};
   for (const model::FreeLoad& load : dynamics.system().loads)

@@ -135,7 +135,8 @@ int modes_command(const ModesArguments& arguments) {
   const model::System system = assemble(session.model);
   if (!system.stiffness_is_symmetric)
     throw InputError(
-        "the stiffness matrix is not symmetric, because of cross terms of bearings or of given matrices, or of damping that turns, so that the "
+        "the stiffness matrix is not symmetric, because of cross terms of bearings or of given matrices, or of damping "
+        "that turns, so that the "
         "scene has no undamped modes; take --speed 0, which gives damped modes at rest");
   if (session.model.rotation != nullptr)
     log::info("modes at rest; --speed OMEGA and --campbell FROM TO N give those of turning shafts");

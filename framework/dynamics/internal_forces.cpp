@@ -27,7 +27,8 @@ InternalForces::InternalForces(const model::System& system)
   if (system.dashpots.size() > 0) dashpots_ = linalg::SymmetricProduct(system.dashpots, system.is_symmetric);
   if (modal_ && !system.is_symmetric)
     throw InputError(
-        "modal damping requires symmetric matrices, but here shafts turn, or bearings or given matrices have cross terms; give "
+        "modal damping requires symmetric matrices, but here shafts turn, or bearings or given matrices have cross "
+        "terms; give "
         "mass_proportional and stiffness_proportional, or damping of bearings and springs");
   if (system.size() == 1)
     single_damping_ = system.damping.mass_proportional * system.mass.coeff(0, 0) +

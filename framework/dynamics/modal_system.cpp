@@ -51,7 +51,8 @@ ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
   const model::System& system = dynamics.system();
   if (!system.is_symmetric)
     throw InputError(
-        "integrator.type: shafts turn, or bearings or given matrices have cross terms in this scene, so that its matrices are not "
+        "integrator.type: shafts turn, or bearings or given matrices have cross terms in this scene, so that its "
+        "matrices are not "
         "symmetric and it lacks the real modes that this method requires");
   Modes modes = find_modes(system, count);
   if (modes.frequencies.size() < system.size()) add_static(system, modes);

@@ -95,7 +95,8 @@ py::dict modes_of(const Session& session, Index count, const std::vector<std::st
     const model::System system = assemble(scene->model);
     if (!system.stiffness_is_symmetric)
       throw InputError(
-          "the stiffness matrix is not symmetric, because of cross terms of bearings or of given matrices, or of damping that turns, so that "
+          "the stiffness matrix is not symmetric, because of cross terms of bearings or of given matrices, or of "
+          "damping that turns, so that "
           "the scene has no undamped modes; whirl() gives damped modes");
     constexpr Index kDefaultCount = 10;  // as `butee modes`
     if (count == 0) count = std::min(kDefaultCount, system.size());
