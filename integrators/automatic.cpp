@@ -147,9 +147,10 @@ class DampedModesBudget {
 
 /// True if a body that the regularised friction of a support holds creeps at a rate far above that of the structure:
 /// all methods but L-stable ones then take steps of that rate (plugins/auto/run-times.md).
-bool creeps(const FastestRates& rates) {
-  constexpr double kCreeps = 20.0;
-  return rates.friction > kCreeps * rates.open;
+bool creeps(const FastestRates& rates, double tolerance) {
+  // The steps of rodas4, of order 4, shorten with the tolerance; those of exponential, of order 10, hardly do.
+  constexpr double kCreeps = 20.0, kLoosest = 1e-3;
+  return rates.friction > kCreeps * std::pow(kLoosest / std::min(kLoosest, tolerance), 0.25) * rates.open;
 }
 
 /// True if a body may move around within a contact: a ring.
@@ -164,9 +165,9 @@ bool has_ring(const dynamics::Obstacles& obstacles) {
 }
 
 /// True if `exponential` supports the scene with damped modes.
-bool suits_collocation(dynamics::Dynamics& dynamics, const FastestRates& rates) {
+bool suits_collocation(dynamics::Dynamics& dynamics, const FastestRates& rates, double tolerance) {
   const model::System& system = dynamics.system();
-  if (!needs_collocation(system) || creeps(rates)) return false;
+  if (!needs_collocation(system) || creeps(rates, tolerance)) return false;
   // If the speed of turning parts varies, all their DOFs take part in the sweeps of each step; rodas4 is faster if
   // damping leaves its steps to the slow modes (apps/models/rotor.toml: 1.4 times).
   if (system.rotation != nullptr && rates.damping > rates.open) return false;
@@ -231,7 +232,7 @@ Choice choose_for_obstacles(dynamics::Dynamics& dynamics, const FastestRates& ra
     return {Method::dopri5, "contacts stick rigidly; it locates the changes, and implicit methods cannot treat them"};
   if (dynamics::has_infinite_slope(*dynamics.obstacles()))
     return explicit_method(dynamics, tolerance, "the slope of a contact's dissipation is infinite where it closes");
-  if (creeps(rates))
+  if (creeps(rates, tolerance))
     return {Method::rodas4, "friction supports hold bodies that creep, and its steps may exceed the time of that"};
   const std::string contacts = "contacts act in the plane, with dissipation or friction, ";
   if (rates.damping > rates.open)
@@ -277,7 +278,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     return choose_for_obstacles(dynamics, rates, tolerance);
   const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;
   const char* const too_tight = "the tolerance is below the smallest one of exponential with stops";
-  if (suits_collocation(dynamics, rates) && DampedModesBudget(dynamics, tolerance, end_time).suffices()) {
+  if (suits_collocation(dynamics, rates, tolerance) && DampedModesBudget(dynamics, tolerance, end_time).suffices()) {
     if (is_too_tight && is_singular) return choose_for_obstacles(dynamics, rates, tolerance);
     if (is_too_tight) return {Method::rodas4, too_tight};
     return {Method::exponential, "the linear part is exact in its damped modes, and only contacts are approximated"};
@@ -329,8 +330,8 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   // Where damping leaves the steps of rodas4 to slow motion they are long at any tolerance, unless the force of a stop
   // jumps.
   const FastestRates rates = fastest_rates(dynamics);
-  const bool is_damped =
-      choice.method == Choice::Method::rodas4 && (rates.damping > rates.open || creeps(rates)) && !has_jump(dynamics);
+  const bool is_damped = choice.method == Choice::Method::rodas4 &&
+                         (rates.damping > rates.open || creeps(rates, tolerance)) && !has_jump(dynamics);
   if (high.is_wanted() && takes_steps && !is_damped && !stays_static(dynamics, end_time)) {
     if ((integrator = high.exact()) != nullptr)
       choice.method = Choice::Method::exact;
