@@ -185,6 +185,16 @@ TEST(Automatic, TakesExplicitMethodsWhereFastModesMove) {
       "1e4\n[[contact]]\nnodes = \"m\"\ntype = \"plane\"\nnormal = [1.0, 0.0]" +
       jankowski.substr(jankowski.find('\n')) + "[integrator]\nend_time = 0.05\n");
   EXPECT_TRUE(begins(on_plane.integrator().choice(), "dopri5")) << on_plane.integrator().choice();
+  // The rate of the friction is 0.1/(2e-5 * 100) = 50 times the frequency; rodas4 takes short steps at a tight
+  // tolerance.
+  for (const auto& [tolerance, method] : {std::pair{"1e-3", "rodas4"}, std::pair{"1e-5", "exponential"}}) {
+    SceneRun held(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+        "\"m\"\nstiffness = 1e4\n[[contact]]\nnodes = \"m\"\ntype = \"friction\"\ndof = \"u\"\nnormal_force = "
+        "1.0\nfriction = { coefficient = 0.1, slip_speed = 2e-5 }\n[integrator]\nend_time = 0.05\ntolerance = " +
+        std::string(tolerance) + "\n[initial]\nvelocity = [{ nodes = \"m\", value = 0.1 }]\n");
+    EXPECT_TRUE(begins(held.integrator().choice(), method)) << tolerance << held.integrator().choice();
+  }
   EXPECT_TRUE(begins(choice(pulling), "extrapolation8")) << choice(pulling);
   EXPECT_TRUE(begins(choice(pulling, damped), "rodas4")) << choice(pulling, damped);
 }
