@@ -79,9 +79,10 @@ class Search {
       if (k < 0 || k >= std::min({std::ssize(a.margins), std::ssize(middle.margins), std::ssize(b.margins)})) continue;
       const double m0 = a.margin(k), m1 = middle.margin(k), m2 = b.margin(k), slope = 0.5 * (m2 - m0),
                    bend = m2 - 2.0 * m1 + m0, least = std::min({std::abs(m0), std::abs(m1), std::abs(m2)});
-      const double place = bend != 0.0 ? -slope / bend : 2.0,
-                   lowest = std::abs(place) < 1.0 ? std::abs(m1 + 0.5 * slope * place) : least;
-      const bool crosses = std::abs(place) < 1.0 && (m1 + 0.5 * slope * place > 0.0) != (m1 > 0.0);
+      const double place = bend != 0.0 ? -slope / bend : 2.0;
+      const bool turns = std::abs(place) < 1.0;
+      const double extreme = m1 + 0.5 * slope * place, lowest = turns ? std::abs(extreme) : least;
+      const bool crosses = turns && (extreme > 0.0) != (m1 > 0.0);
       const double largest = std::max({std::abs(m0), std::abs(m1), std::abs(m2)});
       // Without damping margins are rounding.
       if (largest > kRoundings * rounding_ && (crosses || lowest < kNearZero * largest)) return true;

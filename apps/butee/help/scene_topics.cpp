@@ -123,13 +123,13 @@ u. All include the element's own inertia, gyroscopic moments, weight and base mo
 `butee modes SCENE --speed OMEGA` prints the damped modes at a speed of rotation (rad/s), of shafts their whirl; 0
 serves for scenes without shafts. `--campbell FROM TO N` prints the critical speeds and those at which modes begin or
 cease to grow, with -o and --plot the Campbell diagram of the -n lowest modes. All modes are examined, or with more
-than 160 degrees of freedom the lowest ones, up to frequencies above the largest speed, 160 at most. Where a mode
-begins and ceases to grow between two of the N + 1 speeds, at least a quarter of their distance apart is seen, mostly
-a hundredth. `butee plot` draws orbits (uz over uy, in the rings and between the stops of the node), run-up (the
-radius over the speed), full-spectrum (forward and backward whirl), frame (the deformed structure in space),
-contact-map (closed contacts over time and length) and wear (the powers of wear.csv over the length). If shafts turn,
-or bearings or given matrices have cross terms, the matrices are not symmetric. exponential, rodas4, dopri5,
-extrapolation8, exact and all methods with fixed steps take them; auto chooses among them.
+than 160 degrees of freedom the lowest ones, up to frequencies above the largest speed, 160 at most. A mode that
+begins and ceases to grow between two of the N + 1 speeds is found if it grows over a quarter of their distance, and
+usually if it grows over a hundredth of it. `butee plot` draws orbits (uz over uy, in the rings and between the stops
+of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame (the deformed
+structure in space), contact-map (closed contacts over time and length) and wear (the powers of wear.csv over the
+length). If shafts turn, or bearings or given matrices have cross terms, the matrices are not symmetric. exponential,
+rodas4, dopri5, extrapolation8, exact and all methods with fixed steps take them; auto chooses among them.
 )";
 }
 
