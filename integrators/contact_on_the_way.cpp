@@ -16,6 +16,8 @@ constexpr double kBendWidths = 4.0;
 /// A step that stays beyond the bend resolves the force there if its distance to the border changes by less than this
 /// factor.
 constexpr double kTailRatio = 4.0;
+/// The part of the distance to the bend, from where the motion is nearest, that a step may cover.
+constexpr double kFast = 0.3;
 
 /// Upper bound of a motion through (w0, v0) and (w1, v1), a step of h apart, that rises at the
 /// start and falls at the end: the peak of the cubic plus its error. The error is estimated from
@@ -88,20 +90,27 @@ bool ContactOnTheWay::is_noticeable(Index stop, double jump, double h, ConstVect
   return jump > 0.0 && jump * h * impulse_rate(stop, scale_v) > kNegligibleImpulse * tolerance_;
 }
 
-double ContactOnTheWay::bend_force(Index stop, double h) const {
+ContactOnTheWay::Bend ContactOnTheWay::bend(Index stop, double h) const {
   const double bend = bends_[stop];
-  if (bend == 0.0) return 0.0;
+  if (bend == 0.0) return {};
   const double w0 = w0_[stop], w1 = w1_[stop], v0 = v0_[stop], v1 = v1_[stop];
   const double turn = v0 * v1 < 0.0 ? w0 + 0.5 * h * v0 * v0 / (v0 - v1) : w0;
   const model::FreePlay& play = contact_->play_of(stop);
   const auto [low, high] = std::minmax({play.penetration(w0), play.penetration(w1), play.penetration(turn)});
-  if (low < bend && high > -bend) return high - low > bend ? residual_[stop] : 0.0;
   const auto [near, far] = std::minmax({std::abs(low), std::abs(high)});
-  if (far < kTailRatio * near) return 0.0;
-  return std::abs(std::abs(contact_->law_of(stop).secant(-near)) * near - residual_[stop]);
+  const double range = high - low, nearest = low * high > 0.0 ? near : 0.0, width = bend / kBendWidths;
+  Bend found;
+  found.is_fast = range * range > kFast * kFast * (nearest * nearest + width * width);
+  if (low < bend && high > -bend) {
+    if (range > bend) found.force = residual_[stop];
+  } else if (far >= kTailRatio * near) {
+    found.force = std::abs(std::abs(contact_->law_of(stop).secant(-near)) * near - residual_[stop]);
+  }
+  return found;
 }
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
+  is_fast_at_bend_ = false;
   if (contact_->size() == 0) return false;
   if (has_strayed_) return true;
   contact_->displacement(from.x, w0_);
@@ -112,7 +121,9 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to, do
     const model::FreePlay& play = contact_->play_of(i);
     if (play.closed_side(w0_[i]) != play.closed_side(w1_[i])) return true;
     if (has_passed_middle(i) && is_noticeable(i, jumps_[i], h, scale_v)) return true;
-    if (is_noticeable(i, bend_force(i, h), h, scale_v)) return true;
+    const Bend on_the_way = bend(i, h);
+    if (is_noticeable(i, on_the_way.force, h, scale_v)) return true;
+    is_fast_at_bend_ = is_fast_at_bend_ || (on_the_way.is_fast && is_noticeable(i, residual_[i], h, scale_v));
   }
   return false;
 }
@@ -126,7 +137,7 @@ double ContactOnTheWay::jump(const time::State& from, const time::State& to, dou
   contact_->displacement(to.v, v1_);
   for (Index i = 0; i < w0_.size(); ++i) {
     if (has_passed_middle(i)) largest = std::max(largest, jumps_[i] * impulse_rate(i, scale_v));
-    largest = std::max(largest, bend_force(i, h) * impulse_rate(i, scale_v));
+    largest = std::max(largest, bend(i, h).force * impulse_rate(i, scale_v));
   }
   return largest;
 }

@@ -43,6 +43,10 @@ class ContactOnTheWay {
   /// 1/s^2. The
   /// estimate vanishes at some places of the change in the step where the error does not.
   double kink(const time::State& from, const time::State& to, ConstVectorRef scale_v);
+  /// True if the step that changed() last found free of changes covers more than kFast of the distance to the bend of a
+  /// regularised law, whose force has poles at +-i transition widths: the error, a series in powers of h, hardly
+  /// converges, so that the result is no better than the estimate.
+  bool is_fast_at_bend() const { return is_fast_at_bend_; }
   /// The largest phase angle, rad, that the contact of a body may turn in the step that begins with it.
   static constexpr double kMostTurn = 3.0;
   /// The longest step, s, from a state in which stops have just closed that resolves how they turn their bodies;
@@ -65,10 +69,15 @@ class ContactOnTheWay {
     return jumps_[stop] > 0.0 && w0_[stop] * w1_[stop] <= 0.0 && w0_[stop] != w1_[stop];
   }
 
-  /// The change of force, N, that a step of h does not resolve if it leads through the bend of a regularised law and
-  /// further than its width, or on the way from or to the bend; otherwise 0. A motion that turns is taken as one of
-  /// constant acceleration.
-  double bend_force(Index stop, double h) const;
+  /// A step of h along the force of a regularised law.
+  struct Bend {
+    /// The change of force, N, that the step does not resolve if it leads through the bend and further than its width,
+    /// or on the way from or to the bend; otherwise 0.
+    double force = 0.0;
+    bool is_fast = false;  ///< is_fast_at_bend() for this stop, whatever its force
+  };
+  /// A motion that turns is taken as one of constant acceleration.
+  Bend bend(Index stop, double h) const;
 
   /// True if the impulse of a jump (N) of the force of a stop within a step of h exceeds its bound.
   bool is_noticeable(Index stop, double jump, double h, ConstVectorRef scale_v) const;
@@ -86,7 +95,7 @@ class ContactOnTheWay {
   Vector bends_;         ///< the penetrations up to which the force of a regularised law bends, m; 0: not at all
   Vector least_, most_;  ///< the displacements of stops between which they stay on their side at the start of a step, m
   Vector strayed_;       ///< 1 for those that a stage met beyond, if there are any
-  bool has_strayed_ = false;
+  bool has_strayed_ = false, is_fast_at_bend_ = false;
   Vector w0_, w1_, v0_, v1_, a0_;
 };
 

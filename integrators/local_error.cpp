@@ -369,8 +369,12 @@ double LocalErrorControl::error_ratio(const time::State& from, const time::State
   if (change.has_changed) {
     charge = std::max(orders_.contact_change * epsilon, change.least);
     r = charge / (ErrorAccount::kSpend * balance);
-  } else if (r > 1.0) {
+  } else if (const bool is_fast = contact_.is_fast_at_bend(); r > 1.0 || (is_fast && epsilon > account_.rate() * h)) {
     charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
+    if (is_fast) {
+      charge = std::max(charge, epsilon);
+      r = std::max(r, epsilon / (account_.rate() * h));
+    }
     r = std::min(r, charge / (kSpendOnSmooth * balance));
   }
   if (orders_.is_linear_part_exact) return r;

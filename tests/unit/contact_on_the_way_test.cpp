@@ -195,6 +195,26 @@ TEST(ContactOnTheWay, HasChangedOnTheWayToTheBendOfALaw) {
   EXPECT_FALSE(changed(contact, std::asin(std::sin(1.0) - 2.9 * distance), 1.0));
 }
 
+/// Steps that begin 0.1 transition widths from the border: one of 0.25 of its distance to the poles resolves the bend,
+/// one of 0.35 does not.
+TEST(ContactOnTheWay, IsFastAtABendNearTheLengthOfTheDistanceToItsPoles) {
+  constexpr double kLambda = 1e4, kNear = 0.1, kWidth = 1.0 / (std::numbers::pi * kLambda);
+  const double begin = std::sin(1.0), distance = kWidth * std::hypot(1.0, kNear);
+  SceneRun run(mass_at_a_stop("positive", "type = \"rk4\"\ntime_step = 1e-3\n"),
+               {"contact[0].law=\"arctan\"", "contact[0].regularization=" + to_text(kLambda),
+                "contact[0].gap=" + to_text(begin + kNear * kWidth)});
+  integrators::ContactOnTheWay contact(run.dynamics(), 1e-9), careless(run.dynamics(), 1e9);
+  const auto before = [&](double part) { return std::asin(begin - part * distance); };
+  EXPECT_FALSE(changed(contact, before(0.25), 1.0));
+  EXPECT_FALSE(contact.is_fast_at_bend());
+  EXPECT_FALSE(changed(contact, before(0.35), 1.0));
+  EXPECT_TRUE(contact.is_fast_at_bend());
+  EXPECT_FALSE(changed(contact, before(0.25), 1.0));
+  EXPECT_FALSE(contact.is_fast_at_bend());
+  EXPECT_FALSE(changed(careless, before(0.35), 1.0));
+  EXPECT_FALSE(careless.is_fast_at_bend());
+}
+
 TEST(ContactOnTheWay, KnowsOneSidedStops) {
   for (const auto& [sides, above, below] : {std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
     SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
