@@ -35,73 +35,102 @@ double power(double base, int k) {
   return product;
 }
 
+/// The load of one coordinate of a slow block at s, with two derivatives, and its Taylor coefficients from the start of
+/// the piece times s^k.
+struct SlowLoad {
+  std::array<double, 3> now{};
+  std::array<double, kBoundTerms + 1> terms{};
+
+  void add_parabola(const double* f, double s) {
+    now[0] += f[0] + s * (f[1] + s * f[2]);
+    now[1] += f[1] + 2.0 * s * f[2];
+    now[2] += 2.0 * f[2];
+    for (std::size_t k = 0; k < 3; ++k) terms[k] += f[k] * power(s, static_cast<int>(k));
+  }
+  /// gc cos + gs sin of omega t; cosine and sine of it at the start.
+  void add_harmonic(double omega, double gc, double gs, double cosine, double sine, double s) {
+    const double turn = omega * s, c = std::cos(turn) * cosine - std::sin(turn) * sine,
+                 w = std::sin(turn) * cosine + std::cos(turn) * sine;
+    now[0] += gc * c + gs * w;
+    now[1] += omega * (gs * c - gc * w);
+    now[2] -= omega * omega * (gc * c + gs * w);
+    double even = gc * cosine + gs * sine, odd = gs * cosine - gc * sine;
+    for (std::size_t k = 0; k <= kBoundTerms; ++k) {
+      terms[k] += even;
+      const double step = turn / static_cast<double>(k + 1), next = odd * step;
+      odd = -even * step;
+      even = next;
+    }
+  }
+};
+
 }  // namespace
 
 void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, double s, double* extra) const {
   const double* parabola = &piece.forcing[6 * static_cast<std::size_t>(block.extra)];
   const auto place = static_cast<Index>(2 * with_extras_[static_cast<std::size_t>(block.extra)]);
+  std::array<SlowLoad, 2> loads{};
   for (Index i = 0; i < 2; ++i) {
+    SlowLoad& load = loads[static_cast<std::size_t>(i)];
     if (!block.slow[static_cast<std::size_t>(i)]) continue;
-    std::array<double, kBoundTerms + 1> f{};  // Taylor coefficients of the load, times s^k
-    double scale = 1.0;
-    for (std::size_t k = 0; k < 3; ++k, scale *= s) f[k] = scale * parabola[static_cast<std::size_t>(3 * i) + k];
-    double now = parabola[3 * i] + s * (parabola[3 * i + 1] + s * parabola[3 * i + 2]);
-    double change = parabola[3 * i + 1] + 2.0 * s * parabola[3 * i + 2], curve = 2.0 * parabola[3 * i + 2];
+    load.add_parabola(parabola + 3 * i, s);
     for (const Index j : block.resonant) {
       const auto p = static_cast<std::size_t>(2 * j);
-      const double omega = system_.frequencies[static_cast<std::size_t>(j)];
-      const double gc = harmonic_c_(place + i, j), gs = harmonic_s_(place + i, j);
-      const double c = std::cos(omega * s) * piece.phases[p] - std::sin(omega * s) * piece.phases[p + 1];
-      const double sine = std::sin(omega * s) * piece.phases[p] + std::cos(omega * s) * piece.phases[p + 1];
-      now += gc * c + gs * sine;
-      change += omega * (gs * c - gc * sine);
-      curve -= omega * omega * (gc * c + gs * sine);
-      double even = gc * piece.phases[p] + gs * piece.phases[p + 1],
-             odd = gs * piece.phases[p] - gc * piece.phases[p + 1];
-      for (int k = 0; k <= kBoundTerms; ++k) {
-        f[static_cast<std::size_t>(k)] += even;
-        const double next = odd * omega * s / (k + 1), after = -even * omega * s / (k + 1);
-        even = next;
-        odd = after;
-      }
+      load.add_harmonic(system_.frequencies[static_cast<std::size_t>(j)], harmonic_c_(place + i, j),
+                        harmonic_s_(place + i, j), piece.phases[p], piece.phases[p + 1], s);
     }
-    double* out = extra + 4 * i;
-    if (block.kind == Kind::reals) {
-      const double rate = block.rates[static_cast<std::size_t>(i)];
+  }
+  if (block.kind == Kind::pair) {
+    const Complex lambda(-block.decay, block.frequency), i(0.0, 1.0);
+    Complex term, sum;
+    for (std::size_t k = 0; k <= kBoundTerms; ++k) {
+      term = (lambda * s * term + s * Complex(loads[0].terms[k], loads[1].terms[k])) / static_cast<double>(k + 1);
+      sum += term;
+    }
+    for (int k = 0; k < 4; ++k) {
+      extra[k] = sum.real();
+      extra[4 + k] = sum.imag();
+      if (k < 3) sum = lambda * sum + loads[0].now[k] + i * loads[1].now[k];
+    }
+    return;
+  }
+  if (block.kind == Kind::reals) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!block.slow[i]) continue;
       double term = 0.0, sum = 0.0;
-      for (int k = 0; k <= kBoundTerms; ++k) {
-        term = (rate * s * term + s * f[static_cast<std::size_t>(k)]) / (k + 1);
+      for (std::size_t k = 0; k <= kBoundTerms; ++k) {
+        term = (block.rates[i] * s * term + s * loads[i].terms[k]) / static_cast<double>(k + 1);
         sum += term;
       }
-      out[0] = sum;
-      out[1] = rate * sum + now;
-      out[2] = rate * out[1] + change;
-      out[3] = rate * out[2] + curve;
-      continue;
-    }
-    const double d = block.decay;
-    if (2.0 * d * s > 1.0 && block.square == 0.0) {
-      // q' = u_0 + u_1 s + u_2 s^2 - u_0 e^(-2 d s)
-      const double r = 0.5 / d, u2 = parabola[2] * r, u1 = (parabola[1] - 2.0 * u2) * r, u0 = (parabola[0] - u1) * r;
-      out[0] = s * (u0 + s * (0.5 * u1 + s * u2 / 3.0)) + u0 * r * std::expm1(-2.0 * d * s);
-      out[1] = s * (u1 + s * u2) - u0 * std::expm1(-2.0 * d * s);
-    } else {
-      double before = 0.0, latest = 0.0, q = 0.0, v = 0.0;
-      for (int k = 0; k + 2 <= kBoundTerms; ++k) {
-        const double next =
-            (s * s * f[static_cast<std::size_t>(k)] - (k + 1) * 2.0 * d * s * latest - block.square * s * s * before) /
-            ((k + 1) * (k + 2));
-        q += next;
-        v += (k + 2) * next;
-        before = latest;
-        latest = next;
+      for (std::size_t k = 0; k < 4; ++k) {
+        extra[4 * i + k] = sum;
+        if (k < 3) sum = block.rates[i] * sum + loads[i].now[k];
       }
-      out[0] = q;
-      out[1] = s > 0.0 ? v / s : 0.0;
     }
-    out[2] = now - 2.0 * d * out[1] - block.square * out[0];
-    out[3] = change - 2.0 * d * out[2] - block.square * out[1];
+    return;
   }
+  const double d = block.decay;
+  if (2.0 * d * s > 1.0 && block.square == 0.0) {
+    // q' = u_0 + u_1 s + u_2 s^2 - u_0 e^(-2 d s)
+    const double r = 0.5 / d, u2 = parabola[2] * r, u1 = (parabola[1] - 2.0 * u2) * r, u0 = (parabola[0] - u1) * r;
+    extra[0] = s * (u0 + s * (0.5 * u1 + s * u2 / 3.0)) + u0 * r * std::expm1(-2.0 * d * s);
+    extra[1] = s * (u1 + s * u2) - u0 * std::expm1(-2.0 * d * s);
+  } else {
+    double before = 0.0, latest = 0.0, q = 0.0, v = 0.0;
+    for (int k = 0; k + 2 <= kBoundTerms; ++k) {
+      const double next = (s * s * loads[0].terms[static_cast<std::size_t>(k)] - (k + 1) * 2.0 * d * s * latest -
+                           block.square * s * s * before) /
+                          ((k + 1) * (k + 2));
+      q += next;
+      v += (k + 2) * next;
+      before = latest;
+      latest = next;
+    }
+    extra[0] = q;
+    extra[1] = s > 0.0 ? v / s : 0.0;
+  }
+  extra[2] = loads[0].now[0] - 2.0 * d * extra[1] - block.square * extra[0];
+  extra[3] = loads[0].now[1] - 2.0 * d * extra[2] - block.square * extra[1];
 }
 
 void ContactStateFlow::resonate(const Piece& piece, const Block& block, double s, double* extra) const {

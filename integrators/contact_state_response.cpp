@@ -24,6 +24,7 @@ void ContactStateFlow::find_extras(double end_time) {
       block.slow[0] = block.square == 0.0 || is_slow(std::sqrt(block.square) + 2.0 * block.decay);
     if (block.kind == Kind::reals)
       for (std::size_t i = 0; i < 2; ++i) block.slow[i] = is_slow(-block.rates[i]);
+    if (block.kind == Kind::pair) block.slow.fill(is_slow(block.rate));
     for (Index j = 0; j < system_.harmonic_count(); ++j) {
       const double omega = system_.frequencies[static_cast<std::size_t>(j)];
       const bool resonates =
@@ -83,7 +84,7 @@ void ContactStateFlow::find_response() {
       response[0] += each / square;
       response[1] -= each * (2.0L * d / (square * square));
       response[2] += each * (4.0L * d * d / (square * square * square) - 1.0L / (square * square));
-    } else if (block.kind == Kind::pair) {
+    } else if (block.kind == Kind::pair && !block.slow[0]) {
       const LongComplex inverse = 1.0L / LongComplex(-d, block.frequency);
       LongComplex factor = -inverse;
       for (LongMatrix& each : response) {
