@@ -5,6 +5,7 @@
 
 #include "butee/dynamics/kernel/modal_motion.hpp"
 #include "butee/dynamics/kernel/modal_series.hpp"
+#include "butee/dynamics/load_parabola.hpp"
 
 namespace butee::dynamics {
 namespace {
@@ -237,11 +238,10 @@ void ModalMotion::Parts::add_parabolas() {
 void ModalMotion::Parts::add_other_loads() {
   const Index n = omega_.size();
   for (const ModalSystem::OtherLoad& load : other_loads_) {
-    const double f0 = load.in_time->value(t_), f1 = load.in_time->value(t_ + 0.5 * h_),
-                 f2 = load.in_time->value(t_ + h_);
-    force_[0].head(n) += f0 * load.shape;
-    force_[1].head(n) += (4.0 * f1 - 3.0 * f0 - f2) / h_ * load.shape;
-    force_[2].head(n) += 2.0 * (f0 - 2.0 * f1 + f2) / (h_ * h_) * load.shape;
+    const LoadParabola f(*load.in_time, t_, t_ + h_);
+    force_[0].head(n) += f.begin * load.shape;
+    force_[1].head(n) += (4.0 * f.middle - 3.0 * f.begin - f.end) / h_ * load.shape;
+    force_[2].head(n) += 2.0 * f.bend() / (h_ * h_) * load.shape;
   }
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "butee/dynamics/load_parabola.hpp"
 #include "integrators/contact_on_the_way.hpp"
-#include "integrators/exponential/load_parabola.hpp"
 #include "integrators/exponential/residual_force.hpp"
 
 namespace butee::integrators {
@@ -88,8 +88,8 @@ bool DisplacementBounds::find_carried(const Eigen::ArrayXd& start_speed, const d
 void DisplacementBounds::find(const dynamics::ContactPropagator& flow, const TriedStep& step) {
   of_loads_ = flow.swing_harmonics;
   for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads())
-    of_loads_ +=
-        LoadParabola(*load.in_time, step.t, step.t + step.h).largest() * (flow.swing_force * load.shape.abs()).sum();
+    of_loads_ += dynamics::LoadParabola(*load.in_time, step.t, step.t + step.h).largest() *
+                 (flow.swing_force * load.shape.abs()).sum();
   beyond_cubic_ = (flow.swing_q * step.from.q.abs() + flow.swing_v * step.from.v.abs()).sum() + of_loads_;
   update(step);
 }

@@ -5,7 +5,7 @@
 #include <complex>
 #include <limits>
 
-#include "integrators/exponential/load_parabola.hpp"
+#include "butee/dynamics/load_parabola.hpp"
 #include "integrators/quintic.hpp"
 
 namespace butee::integrators {
@@ -65,7 +65,7 @@ void DerivativeBounds::find(std::size_t breakpoint) {
     }
   }
   for (const dynamics::ModalSystem::OtherLoad& other : modal_.other_loads()) {
-    const LoadParabola f(*other.in_time, t, t + h);
+    const dynamics::LoadParabola f(*other.in_time, t, t + h);
     const double bend = 4.0 * std::abs(f.bend());
     load[0] += f.largest() * other.shape.abs();
     load[1] += (std::abs(f.end - f.begin) + bend) / h * other.shape.abs();
@@ -102,7 +102,7 @@ void DerivativeBounds::find(Index i, double t, double h, double q, double v) {
     }
   }
   for (const dynamics::ModalSystem::OtherLoad& other : modal_.other_loads()) {
-    const LoadParabola f(*other.in_time, t, t + h);
+    const dynamics::LoadParabola f(*other.in_time, t, t + h);
     const double shape = other.shape[i], bend = 2.0 * f.bend() / (h * h) * shape,
                  slope = (4.0 * f.middle - 3.0 * f.begin - f.end) / h * shape;
     const double led2 = bend / square, led1 = (slope - 4.0 * delta * led2) / square,

@@ -1,6 +1,6 @@
 #include "integrators/exponential/modal_energy.hpp"
 
-#include "integrators/exponential/load_parabola.hpp"
+#include "butee/dynamics/load_parabola.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -77,7 +77,7 @@ void ModalEnergy::add_work(const Breakpoint& to) {
     add(s0, 0.5 * (s0 + s1) + turn * (c0 - c1), s1);
   }
   for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) {
-    const LoadParabola f(*load.in_time, last_t_, to.t);
+    const dynamics::LoadParabola f(*load.in_time, last_t_, to.t);
     add(f.begin, f.middle, f.end);
   }
 }

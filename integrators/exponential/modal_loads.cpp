@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "butee/core/error.hpp"
-#include "integrators/exponential/load_parabola.hpp"
+#include "butee/dynamics/load_parabola.hpp"
 #include "integrators/exponential/varying_forces.hpp"
 
 namespace butee::integrators {
@@ -102,7 +102,7 @@ ModalLoads::Resolution ModalLoads::resolution(double h, const Eigen::ArrayXd& re
 const Eigen::MatrixXd& ModalLoads::polynomial(double t, double h) {
   polynomial_.setZero();
   for (const Other& load : others_) {
-    const LoadParabola f(*load.in_time, t, t + h);
+    const dynamics::LoadParabola f(*load.in_time, t, t + h);
     StepNodes::Row values;
     for (Index j = 0; j < StepNodes::kCount; ++j) values[j] = f.at(StepNodes::kPlaces[static_cast<std::size_t>(j)]);
     polynomial_.noalias() += load.shape * (values * StepNodes::with_middle());

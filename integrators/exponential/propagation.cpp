@@ -1,6 +1,6 @@
 #include "integrators/exponential/propagation.hpp"
 
-#include "integrators/exponential/load_parabola.hpp"
+#include "butee/dynamics/load_parabola.hpp"
 
 namespace butee::integrators {
 
@@ -19,7 +19,7 @@ void propagate(const dynamics::ModalSystem& modal, const dynamics::ModalPropagat
     if (v != nullptr) *v += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
   }
   for (const dynamics::ModalSystem::OtherLoad& load : modal.other_loads()) {
-    const LoadParabola f(*load.in_time, t, t_end);
+    const dynamics::LoadParabola f(*load.in_time, t, t_end);
     // In P_0, P_1 and P_2.
     const double p0 = (f.begin + 4.0 * f.middle + f.end) / 6.0, p1 = 0.5 * (f.end - f.begin), p2 = f.bend() / 3.0;
     q += load.shape * (p0 * flow.force_q(0) + p1 * flow.force_q(1) + p2 * flow.force_q(2));

@@ -5,7 +5,7 @@
 
 #include "butee/model/time_function.hpp"
 
-namespace butee::integrators {
+namespace butee::dynamics {
 
 /// A load over a step from t to t_end without a discontinuity within it: the parabola through its values at the
 /// beginning, in the middle and at the end. Where the load jumps at t_end, the last value is its limit from the left.
@@ -41,4 +41,4 @@ struct LoadParabola {
   static constexpr double kContinuous = 1e-8;
 };
 
-}  // namespace butee::integrators
+}  // namespace butee::dynamics
