@@ -553,5 +553,29 @@ TEST(PeaksOfLongSteps, AreThoseOfExact) {
   }
 }
 
+/// A step that ends with the motion of a base, whose acceleration stops there.
+TEST(PeaksOfLongSteps, AreThoseOfExactWhereALoadEnds) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 800.0\ndamping = 1.6\n[base]\ndisplacement = { direction = [0, 1, 0], type = \"table\", "
+      "times "
+      "= [0.0, 2.0], values = [0.0, 0.01] }\n[integrator]\nend_time = 3.0\n";
+  std::map<std::string, double> expected;
+  for (const std::string method : {"exact", "exponential"}) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    model::OutputRequest request;
+    request.interval = 1.0;
+    request.probes = {{"m",
+                       run.model().nodes.select("m").nodes.front(),
+                       {model::Quantity::uy, model::Quantity::uy_v, model::Quantity::uy_a},
+                       ""}};
+    record::HistoryRecorder history(request, 3.0, run.dynamics(), nullptr);
+    run.simulation().add(history);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    if (expected.empty()) expected = history.peaks();
+    for (const auto& [column, peak] : expected) EXPECT_NEAR(history.peaks().at(column), peak, 1e-8 * peak) << column;
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::peaks_test
