@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 namespace butee {
@@ -14,11 +15,12 @@ inline std::array<QuadraturePoint, 5> gauss_points(double begin, double end) {
   const double half = 0.5 * (end - begin), middle = begin + half;
   const double inner = 0.53846931010568309104 * half, outer = 0.90617984593866399280 * half;
   const double inner_weight = 0.47862867049936646804 * half, outer_weight = 0.23692688505618908751 * half;
-  return {{{middle - outer, outer_weight},
-           {middle - inner, inner_weight},
+  // Within a few roundings of t a sum may lie beyond the end.
+  return {{{std::max(begin, middle - outer), outer_weight},
+           {std::max(begin, middle - inner), inner_weight},
            {middle, 128.0 / 225.0 * half},
-           {middle + inner, inner_weight},
-           {middle + outer, outer_weight}}};
+           {std::min(end, middle + inner), inner_weight},
+           {std::min(end, middle + outer), outer_weight}}};
 }
 
 /// The weight of a point in a rule, and in the rule that has only every second of its points, s.
@@ -46,8 +48,8 @@ inline std::array<NestedPoint, 15> kronrod_points(double begin, double end) {
   std::array<NestedPoint, 15> points{};
   for (std::size_t k = 0; k < kPlaces.size(); ++k) {
     const double weight = half * kWeights[k], coarse = k % 2 == 0 ? half * kCoarse[k / 2] : 0.0;
-    points[7 - k] = {middle - half * kPlaces[k], weight, coarse};
-    points[7 + k] = {middle + half * kPlaces[k], weight, coarse};
+    points[7 - k] = {std::max(begin, middle - half * kPlaces[k]), weight, coarse};
+    points[7 + k] = {std::min(end, middle + half * kPlaces[k]), weight, coarse};
   }
   return points;
 }

@@ -34,5 +34,23 @@ TEST(Quadrature, LagrangesPolynomialContinuesAPolynomial) {
   EXPECT_NEAR(sum, std::pow(-0.5, 9), 1e-14);
 }
 
+/// Points lie in the interval even if it is a few roundings of t long, where their sums round beyond its ends.
+TEST(Quadrature, PointsOfTinyIntervalsLieWithin) {
+  for (const double begin : {1.0, 0.3, 2.0 - 1e-15}) {
+    double end = begin;
+    for (int i = 0; i < 40; ++i) {
+      end = std::nextafter(end, 3.0);
+      const auto check = [&](const auto& points) {
+        for (const auto& point : points) {
+          EXPECT_GE(point.t, begin);
+          EXPECT_LE(point.t, end);
+        }
+      };
+      check(gauss_points(begin, end));
+      check(kronrod_points(begin, end));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::quadrature_test

@@ -577,5 +577,50 @@ TEST(PeaksOfLongSteps, AreThoseOfExactWhereALoadEnds) {
   }
 }
 
+/// A base whose acceleration jumps at the end of its table, where a row falls: steps over the jump are a rounding of t
+/// long.
+TEST(PeaksAtJumps, AreNotDifferencesOfRounding) {
+  std::string times, values;
+  for (int i = 0; i <= 30; ++i) {
+    times += (i == 0 ? "" : ", ") + to_text(0.1 * i - 1.0);
+    values += (i == 0 ? "" : ", ") + to_text(0.01 * std::sin(7.0 * (0.1 * i - 1.0)));
+  }
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 800.0\ndamping = 1.6\n[base]\ndisplacement = { direction = [0, 1, 0], type = \"table\", "
+      "times "
+      "= [" +
+      times + "], values = [" + values + "] }\n[integrator]\nend_time = 3.0\n";
+  std::map<std::string, double> expected;
+  for (const std::string method : {"exact", "extrapolation8", "dopri5", "rodas4"}) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    model::OutputRequest request;
+    request.interval = 0.01;
+    request.probes = {
+        {"m", run.model().nodes.select("m").nodes.front(), {model::Quantity::a_abs, model::Quantity::v_abs}, ""}};
+    record::HistoryRecorder history(request, 3.0, run.dynamics(), nullptr);
+    run.simulation().add(history);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    if (expected.empty()) expected = history.peaks();
+    for (const auto& [column, peak] : expected)
+      EXPECT_NEAR(history.peaks().at(column), peak, 1e-3 * peak) << method << " " << column;
+  }
+}
+
+/// A ramp of 4500 roundings of t.
+TEST(EnergyOfSteepRamps, IsThatOfTheJump) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 800.0\ndamping = 1.6\n[[load]]\ntype = \"ramp\"\nnode = \"m\"\nto = 50.0\nstart = 1.0\nend = "
+      "1.000000000001\n[integrator]\nend_time = 3.0\n[output]\ninterval = 0.05\nenergy = true\n";
+  for (const std::string method : {"exponential", "dopri5", "piecewise"}) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    record::EnergyRecorder energy(run.dynamics(), nullptr, record::OutputTimes(0.05, 0, 3.0));
+    run.simulation().add(energy);
+    ASSERT_TRUE(run.run().completed) << method << ": " << run.simulation().report().message;
+    EXPECT_NEAR(energy.balance_error(), 0.0, 1e-4) << method;
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::peaks_test
