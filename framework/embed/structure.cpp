@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <typeinfo>
+#include <utility>
 
 #include "butee/config/file_reference.hpp"
 #include "butee/config/override.hpp"
@@ -74,12 +75,18 @@ struct Structure::Parts {
   std::optional<scene::Assembly> assembly{};
   std::vector<std::unique_ptr<record::Peaks>> peaks{};
   bool is_advancing = false;
+  bool has_jumped = false;  ///< the state, by a new motion or force, since the last step
 
   std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
   void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
   NodalForce& force_on(Index dof);
   /// Throws InputError if record::Peaks cannot follow the quantity.
   void check_peak(const std::string& node_name, model::NodeId node, model::Quantity quantity);
+  /// Lets the peaks take a state that has jumped, before a step or a question for them.
+  void take_jump() {
+    if (!std::exchange(has_jumped, false)) return;
+    for (const auto& each : peaks) each->take(assembly->simulation.state());
+  }
   /// Throws LogicError if the call comes from a function that advance_to() or advance_step() calls.
   void check_idle(const char* call) const {
     if (is_advancing) throw LogicError(std::string(call) + "() is called within a step; call it after advance_to()");
@@ -229,7 +236,7 @@ bool Structure::advance_to(double t, const std::function<bool()>& goes_on) {
   if (t == time() && !simulation.report().message.empty()) throw RunError(simulation.report().message);
   if (t == time()) return true;
   if (simulation.report().message.empty()) simulation.set_end_time(t);
-  while (simulation.advance())
+  while (parts().take_jump(), simulation.advance())
     if (goes_on && !goes_on()) return false;
   if (!simulation.report().completed) throw RunError(simulation.report().message);
   return true;
@@ -241,6 +248,7 @@ double Structure::advance_step(double limit) {
   simulation.start();
   check_time(limit, time(), false, "advance_step");
   if (simulation.report().message.empty()) simulation.set_end_time(limit);
+  parts().take_jump();
   simulation.advance();
   if (!simulation.report().message.empty()) throw RunError(simulation.report().message);
   return time();
@@ -271,6 +279,7 @@ void Structure::set_motion(ConstVectorRef displacements, ConstVectorRef velociti
   check_numbers(displacements, "a displacement", size());
   check_numbers(velocities, "a velocity", size());
   parts().assembly->simulation.set_motion(displacements, velocities);
+  parts().has_jumped = true;
 }
 
 void Structure::set_displacement(Index dof, double value) {
@@ -307,6 +316,7 @@ void Structure::set_line(Index dof, const NodalForce::Line& line) {
   const bool jump = force.value(time()) != line.value;
   force.line = line;
   parts().assembly->simulation.loads_changed(jump);
+  parts().has_jumped = true;
 }
 
 double Structure::force(Index dof) const {
@@ -355,6 +365,7 @@ void Structure::restore(const Snapshot& snapshot) {
   auto line = snapshot.forces.begin();
   for (const auto& [dof, force] : parts().forces) force->line = *line++;
   parts().assembly->dynamics.loads_changed();
+  parts().has_jumped = true;
 }
 
 void Structure::observe(time::Observer& observer) {
@@ -380,6 +391,7 @@ void Structure::follow_peaks(const std::string& selector, const std::vector<mode
 
 std::map<std::string, double> Structure::peaks() const {
   parts().assembly->simulation.start();
+  parts().take_jump();
   std::map<std::string, double> all;
   for (const auto& peaks : parts().peaks) all.merge(peaks->largest());
   return all;

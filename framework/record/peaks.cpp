@@ -84,17 +84,21 @@ std::vector<Peaks::Stop> Peaks::stops_on(model::Quantity quantity, model::NodeId
 }
 
 void Peaks::start(const time::State& state) {
+  for (Followed& followed : followed_) followed.ranges.fill({});
+  for (Column& column : columns_) column.largest = 0.0;
+  take(state);
+}
+
+void Peaks::take(const time::State& state) {
   for (std::size_t i = 0; i < followed_.size(); ++i) {
     const Point point = tracks_.at(state, i);
-    for (std::size_t order = 0; order < 3; ++order) {
-      followed_[i].ranges[order] = {};
+    for (std::size_t order = 0; order < 3; ++order)
       if (followed_[i].is_followed[order]) followed_[i].ranges[order].take(point.t, point.of[order]);
-    }
   }
   for (Column& column : columns_) {
     begin_.clear();
     for (const Stop& stop : column.stops) begin_.push_back(tracks_.at(state, stop.track));
-    column.largest = sum_at(column, begin_);
+    column.largest = std::max(column.largest, sum_at(column, begin_));
   }
 }
 

@@ -29,6 +29,8 @@ class BUTEE_EXPORT Peaks final : public time::Observer {
   void step(const time::AcceptedStep& step) override;
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
+  /// Takes a state that no step has led to, such as that after a jump of the motion or of the forces between steps.
+  void take(const time::State& state);
 
   /// The peaks by column, "mid.u".
   std::map<std::string, double> largest() const;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <ostream>
 #include <string>
@@ -419,6 +420,50 @@ quantities = [")" + quantity + "\"]\n",
   };
   EXPECT_GT(bound_of("u"), 0.1);
   EXPECT_LT(bound_of("u_abs"), 1e-3);
+}
+
+/// A rotation is the same relative to the base and in space, also where a section force is asked for beside it.
+TEST(TrustBesideAMovingBase, NamesARotationOnce) {
+  scene::Scene session = read_scene(R"(
+schema = 1
+[material.s]
+young_modulus = 2e11
+density = 7800.0
+[section.r]
+shape = "rectangle"
+width = 0.03
+height = 0.02
+[[element]]
+type = "beam"
+name = "b"
+material = "s"
+section = "r"
+length = 1.2
+elements = 2
+[[support]]
+nodes = "b:first"
+fix = ["u", "theta"]
+[base]
+acceleration = { direction = [0, 1, 0], type = "harmonic", amplitude = 12.0, angular_frequency = 55.0 }
+[[contact]]
+type = "stop"
+nodes = "b:last"
+gap = 0.002
+stiffness = 5e4
+frame = "space"
+[integrator]
+end_time = 0.02
+[[output.probe]]
+label = "n"
+node = "b:last"
+quantities = ["theta", "M"]
+)",
+                                    {});
+  const record::Trust trust = app::find_trust(session);
+  std::map<std::string, int> names;
+  for (const auto& statistic : trust.statistics) ++names[statistic.name];
+  EXPECT_FALSE(names.empty());
+  for (const auto& [name, count] : names) EXPECT_EQ(count, 1) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(KnownScenes, Trust, testing::ValuesIn(all_scenes()),

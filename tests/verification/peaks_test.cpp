@@ -114,6 +114,28 @@ std::map<std::string, double> embedded_peaks(const std::string& scene, double en
   return structure.peaks();
 }
 
+/// A force or a motion that an embedding program sets between steps: the state that it makes counts, at once and later;
+/// one that is replaced before a step or a question does not.
+TEST(PeaksOfJumps, AreThoseThatAProgramSets) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"ball\"\nstiffness = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 0.01\nstiffness = "
+      "1e5\nlaw = \"linear\"\n[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 1.0\n";
+  auto structure = embed::Structure::from_toml(scene, {{"ball"}, {BUTEE_TEST_PLUGINS}, {}});
+  using model::Quantity;
+  structure.follow_peaks("ball", {Quantity::u, Quantity::a, Quantity::contact_force});
+  structure.advance_to(0.01);
+  structure.set_force(0, 1e6);
+  structure.set_force(0, 100.0);
+  EXPECT_DOUBLE_EQ(structure.peak("ball", Quantity::a), 50.0);
+  structure.advance_to(0.011);
+  EXPECT_DOUBLE_EQ(structure.peak("ball", Quantity::a), 50.0);
+  structure.set_displacement(0, 0.05);
+  structure.advance_to(0.012);
+  EXPECT_DOUBLE_EQ(structure.peak("ball", Quantity::u), 0.05);
+  EXPECT_DOUBLE_EQ(structure.peak("ball", Quantity::contact_force), 1e5 * (0.05 - 0.01));
+}
+
 /// 1 kg, 1e-3 N/m and 3.5 m/s against stops of 1e12 N/m at 100 m: the penetration of 1.5 um is 1.5e-8 of the
 /// displacement. Without the spring's work in contact the force is sqrt(1e12 N/m 1 kg) times the speed of impact, 1.5
 /// m/s.

@@ -54,9 +54,13 @@ std::vector<Followed> followed_by_probes(const scene::Scene& session, const mode
   const bool in_space = session.model.base_frame == model::BaseFrame::still;
   std::vector<Followed> all;
   for (const model::ProbeRequest& probe : session.output.probes) {
+    const std::size_t before = all.size();
     const auto follow = [&](DofKind kind, bool absolute) {
       const Quantity quantity = (absolute ? kInSpace : kRelative)[static_cast<std::size_t>(kind)];
-      if (system.dofs.index({probe.node, kind}) >= 0)
+      // A rotation is the same in both frames.
+      const bool is_known = std::any_of(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(),
+                                        [&](const Followed& other) { return other.quantity == quantity; });
+      if (!is_known && system.dofs.index({probe.node, kind}) >= 0)
         all.push_back({probe.label, probe.node, quantity, kind,
                        record::Probes::has_base_share(&session.model, system.dofs, probe.node, quantity)});
     };
@@ -66,7 +70,6 @@ std::vector<Followed> followed_by_probes(const scene::Scene& session, const mode
         return model::kind_of(quantity) == kind && (is_motion ? model::is_absolute(quantity) : in_space) == absolute;
       });
     };
-    const std::size_t before = all.size();
     for (const DofKind kind : kAllDofKinds)
       for (const bool absolute : {false, true})
         if (is_asked(kind, absolute)) follow(kind, absolute);
