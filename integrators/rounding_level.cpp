@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "integrators/magnitudes.hpp"
@@ -12,6 +13,9 @@ namespace {
 
 /// Errors below this part of the motion of the whole structure, in the norm of the diagonal of M, are rounding.
 constexpr double kRoundingOfMotion = 1e-14;
+/// The same of what the forces on a component cause within its own period: a light part does not share the rounding of
+/// heavy ones.
+constexpr double kOfForces = 10.0;
 /// Errors of a step below this part of a component, or of what the forces on it cause in the step, are rounding.
 constexpr double kRoundingOfStep = 1e-15;
 /// Errors of that size are rounding in steps below this part of the longest stable one; in longer ones they may be the
@@ -28,27 +32,40 @@ RoundingLevel::RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, dou
       root_mass_(dynamics.system().mass.diagonal().cwiseSqrt()),
       stop_stiffness_(dynamics.stops().closed_stiffness()),
       w0_(Vector::Zero(stop_stiffness_.size())),
-      w1_(w0_) {}
+      w1_(w0_) {
+  const model::System& system = dynamics.system();
+  const Vector mass = root_mass_.cwiseAbs2();
+  Vector stiffness = system.stiffness.diagonal(),
+         damping = system.damping.mass_proportional * mass + system.damping.stiffness_proportional * stiffness;
+  if (system.dashpots.size() > 0) damping += system.dashpots.diagonal();
+  own_square_ = stiffness.cwiseMax(0.0).cwiseQuotient(mass);
+  own_rate_ = own_square_.cwiseSqrt().cwiseMax(damping.cwiseQuotient(mass));
+}
 
 void RoundingLevel::raise(const time::State& from, const time::State& to, double h, double stable, double bound,
                           Vector& scale_x, Vector& scale_v) {
   const double of_x = of_motion_ * root_mass_.cwiseProduct(scale_x).norm(),
                of_v = of_motion_ * root_mass_.cwiseProduct(scale_v).norm();
+  sum_forces(from, to);
+  // force_ := the accelerations; a mass matrix that couples DOFs spreads their rounding.
+  if (is_lumped_)
+    force_ = force_.cwiseQuotient(root_mass_.cwiseAbs2());
+  else
+    force_ = root_mass_.cwiseInverse() * force_.cwiseQuotient(root_mass_).norm();
+  const auto within = [](double a, double rate) {
+    return rate > 0.0 ? a / rate : std::numeric_limits<double>::infinity();
+  };
+  most_x_ = kOfForces * of_motion_ * (scale_x + force_.binaryExpr(own_square_, within));
+  most_v_ = kOfForces * of_motion_ * (scale_v + force_.binaryExpr(own_rate_, within));
   if (h < kShortStep * stable) {
     // In longer steps of an implicit method the elastic forces that follow take up those of rounding.
     const double time = rate_ > 0.0 ? std::min(h, 1.0 / rate_) : h;
-    sum_forces(from, to);
-    // force_ := the accelerations; a mass matrix that couples DOFs spreads their rounding.
-    if (is_lumped_)
-      force_ = force_.cwiseQuotient(root_mass_.cwiseAbs2());
-    else
-      force_ = root_mass_.cwiseInverse() * force_.cwiseQuotient(root_mass_).norm();
     const double part = kRoundingOfStep / bound;
     scale_x = scale_x.cwiseMax(part * (scale_x + h * scale_v + (time * time) * force_));
     scale_v = scale_v.cwiseMax(part * (scale_v + time * force_));
   }
-  scale_x = scale_x.cwiseMax(of_x * root_mass_.cwiseInverse());
-  scale_v = scale_v.cwiseMax(of_v * root_mass_.cwiseInverse());
+  scale_x = scale_x.cwiseMax((of_x * root_mass_.cwiseInverse()).cwiseMin(most_x_));
+  scale_v = scale_v.cwiseMax((of_v * root_mass_.cwiseInverse()).cwiseMin(most_v_));
 }
 
 void RoundingLevel::sum_forces(const time::State& from, const time::State& to) {

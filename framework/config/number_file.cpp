@@ -135,6 +135,7 @@ class NumberFile {
     bool any = lines_.next();
     separator_ = lines_.line.find(';') != std::string_view::npos ? ';' : ',';
     if (any && !begins_with_number()) {
+      check_names();
       find_names();
       any = lines_.next();
     } else if (const auto name = std::find_if(names_.begin(), names_.end(), [](auto& n) { return !n.empty(); });
@@ -159,6 +160,17 @@ class NumberFile {
     return number_of(fields.field).has_value() ||
            (first != std::string_view::npos &&
             std::string_view("0123456789+-.").find(fields.field[first]) != std::string_view::npos);
+  }
+
+  /// A row whose first number is mistyped is no line of names.
+  void check_names() const {
+    if (!names_[0].empty() || !names_[1].empty()) return;
+    const std::vector<std::string> known = column_names(lines_.line, separator_);
+    for (const std::size_t place : places_)
+      if (place < known.size() && number_of(known[place]))
+        refuse(lines_.number,
+               "column 1: " + shown(known.front()) + " is not a number, but column " + std::to_string(place + 1) +
+                   " is; if this line names the columns, skip it by skip = " + std::to_string(lines_.number));
   }
 
   void find_names() {

@@ -88,6 +88,8 @@ TEST_F(TableFile, RefusesWhatIsNoTableWithItsLine) {
   refused("0;0\n1;0,5\n", "t.csv:2: column 2: \"0,5\" is not a number; write decimals with a point");
   refused("0\t1,5\n1\t2,5\n", "t.csv:1: separates columns both by blanks and by \",\"; write decimals with a point");
   refused("0,0 1,5\n1,1 2,5\n", "t.csv:1: separates columns both by blanks and by \",\"; write decimals with a point");
+  refused("O,0\n1,1\n",
+          "t.csv:1: column 1: \"O\" is not a number, but column 2 is; if this line names the columns, skip it");
   refused("", "t.csv: holds no numbers");
   refused("t,f\n", "t.csv: holds no numbers");
   refused("0,0\n1,1\n", "t.csv: holds no numbers", "skip = 9");
