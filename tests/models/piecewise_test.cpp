@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <butee/core/text.hpp>
 #include <butee/record/contact_recorder.hpp>
 #include <gtest/gtest.h>
 
@@ -73,6 +74,49 @@ TEST(Piecewise, MeetsExactOnRandomChains) {
 }
 
 /// With steps as long as the series of `exact` allow, and with shorter ones: both end at changes of contact.
+/// A light part on a stiff dashpot between two bodies: slow motion has the rounding of its own rate, not that of the
+/// fast decay (up to 1e9 times as fast); and a run that is short beside it that of its own size, under constant and
+/// harmonic loads.
+TEST(Piecewise, KeepsTheDigitsOfSlowMotionBesideFastDecay) {
+  const auto scene = [](const std::string& end, const std::string& damping) {
+    return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.4\n[[element]]\ntype = \"mass\"\nname = "
+           "\"b\"\nmass = 6e-8\n[[element]]\ntype = \"mass\"\nname = \"c\"\nmass = 2.3\n[[element]]\ntype = "
+           "\"spring\"\nnode = \"a\"\nstiffness = 20.0\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", "
+           "\"b\"]\nstiffness = 11.0\ndamping = 1e-3\n[[element]]\ntype = \"spring\"\nnodes = [\"b\", "
+           "\"c\"]\nstiffness "
+           "= 4e4\ndamping = " +
+           damping +
+           "\n[[load]]\nnode = \"c\"\ntype = \"harmonic\"\namplitude = 14.0\nangular_frequency = "
+           "3.0\nphase = 1.0\n[[load]]\nnode = \"a\"\ntype = \"ramp\"\nto = 2.0\nstart = 0.0\nend = 1.0\n[integrator]\n"
+           "end_time = " +
+           end + "\n";
+  };
+  for (const auto& [end, damping] : {std::pair{1e-5, "5"}, std::pair{1e-3, "5"}, std::pair{1e-4, "200"}}) {
+    std::vector<double> times;
+    for (int i = 1; i <= 20; ++i) times.push_back(end * i / 20);
+    std::vector<Motions> ours, reference;
+    double largest_x = 0.0, largest_v = 0.0;
+    for (const Index dof : {0, 1, 2}) {
+      const auto sampled = [&, end = end, damping = damping](const std::string& method) {
+        SceneRun run(scene(to_text(end), damping), {"integrator.type=" + method});
+        Sampler sampler(dof, times);
+        run.simulation().add(sampler);
+        EXPECT_TRUE(run.run().completed) << method;
+        return Motions{sampler.x, sampler.v};
+      };
+      ours.push_back(sampled("piecewise"));
+      reference.push_back(sampled("exact"));
+      largest_x = std::max(largest_x, peak(reference.back().x));
+      largest_v = std::max(largest_v, peak(reference.back().v));
+    }
+    for (std::size_t dof = 0; dof < ours.size(); ++dof)
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        EXPECT_NEAR(ours[dof].x.at(i), reference[dof].x.at(i), kRounding * largest_x) << dof << " " << times[i];
+        EXPECT_NEAR(ours[dof].v.at(i), reference[dof].v.at(i), kRounding * largest_v) << dof << " " << times[i];
+      }
+  }
+}
+
 TEST(Piecewise, MeetsExactWhereStopsDissipate) {
   constexpr unsigned kChains = 60;
   for (const char* steps : {"", "time_step = 0.01\n"}) {

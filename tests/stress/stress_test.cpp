@@ -189,11 +189,12 @@ TEST(Stress, RubbingScenesThatWereWrongOnce) {
 }
 
 /// A load that grows fast first drives a body backwards; stages of a step reach a stop that its end does not; steps
-/// are long beside the distance to the poles of a blunt law.
+/// are long beside the distance to the poles of a blunt law; a dashpot holds 1e-8 of the mass.
 TEST(Stress, ExplicitMethodsKeepTheirPromiseInScenesThatTheyGotWrongOnce) {
   for (const auto& [scene, name] :
        {std::pair{"wide 815000", "dopri5"}, std::pair{"rubbing 810984", "extrapolation8"},
-        std::pair{"random 840375", "extrapolation8"}, std::pair{"wide 20008268", "extrapolation8"}}) {
+        std::pair{"random 840375", "extrapolation8"}, std::pair{"wide 20008268", "extrapolation8"},
+        std::pair{"wide 40003477", "extrapolation8"}, std::pair{"wide 40003477", "dopri5"}}) {
     std::vector<Method> chosen;
     for (const Method& method : methods())
       if (method.name == name) chosen.push_back(method);
@@ -201,6 +202,18 @@ TEST(Stress, ExplicitMethodsKeepTheirPromiseInScenesThatTheyGotWrongOnce) {
     run_all({*random_scene_of(scene)}, chosen, kWork, tally);
     EXPECT_EQ(tally.count(Verdict::correct), 1) << scene;
   }
+}
+
+/// A run that is short beside the periods of its loads and of a damped motion, which have amplitudes 1e6 times those
+/// that are reached.
+TEST(Stress, PiecewiseKeepsTheDigitsOfShortRuns) {
+  std::vector<Method> chosen;
+  for (const Method& method : methods())
+    if (method.name == "piecewise") chosen.push_back(method);
+  ASSERT_EQ(chosen.size(), 1U);
+  Tally tally;
+  run_all({*random_scene_of("wide 40004881")}, chosen, kWork, tally);
+  EXPECT_EQ(tally.count(Verdict::correct), 1);
 }
 
 /// A change of contact within the rounding of t after another one once ended the program.
