@@ -16,7 +16,7 @@ constexpr double kBendWidths = 4.0;
 /// A step that stays beyond the bend resolves the force there if its distance to the border changes by less than this
 /// factor.
 constexpr double kTailRatio = 4.0;
-/// The part of the distance to the bend, from where the motion is nearest, that a step may cover.
+/// A step that covers more than this part of the distance from its nearest penetration to the poles of the law is fast.
 constexpr double kFast = 0.3;
 
 /// Upper bound of a motion through (w0, v0) and (w1, v1), a step of h apart, that rises at the

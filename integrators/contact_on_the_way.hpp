@@ -43,9 +43,9 @@ class ContactOnTheWay {
   /// 1/s^2. The
   /// estimate vanishes at some places of the change in the step where the error does not.
   double kink(const time::State& from, const time::State& to, ConstVectorRef scale_v);
-  /// True if the step that changed() last found free of changes covers more than kFast of the distance to the bend of a
-  /// regularised law, whose force has poles at +-i transition widths: the error, a series in powers of h, hardly
-  /// converges, so that the result is no better than the estimate.
+  /// True if the step that changed() last found free of changes covers more than 0.3 of the distance to the poles of a
+  /// regularised law, which are +-i transition widths from its border: the error, a series in powers of h, hardly
+  /// converges, so that it is no smaller than the estimate.
   bool is_fast_at_bend() const { return is_fast_at_bend_; }
   /// The largest phase angle, rad, that the contact of a body may turn in the step that begins with it.
   static constexpr double kMostTurn = 3.0;

@@ -73,12 +73,13 @@ void refine_pairs(const LongVector& squares, const LongMatrix& damping, const Lo
   using Column = Eigen::Matrix<LongComplex, Eigen::Dynamic, 1>;
   for (Index m = 0; m < count; ++m) {
     LongComplex lambda = pairs.values[m];
+    if (lambda.imag() < 0.0L) continue;  // the conjugate of the one before
     Column v = scale.cwiseInverse().cast<LongComplex>().cwiseProduct(pairs.vectors.col(m).head(p));
     for (int iteration = 0; iteration < 2; ++iteration) {
       LongComplexMatrix q = lambda * c;
       q.diagonal().array() += squares.array().cast<LongComplex>() + lambda * lambda;
       const Column next = q.partialPivLu().solve(2.0L * lambda * v + c * v).normalized();
-      if (!next.allFinite()) break;  // lambda is exact
+      if (!next.allFinite()) break;  // Q is singular: lambda is exact
       v = next;
       const LongComplex slope = (v.transpose() * (2.0L * lambda * v + c * v)).value();
       const LongComplex value =
@@ -100,14 +101,11 @@ void refine_pairs(const LongVector& squares, const LongMatrix& damping, const Lo
     fine.vectors.col(m) << scale.cast<LongComplex>().cwiseProduct(v), lambda * v;
     fine.inverse.row(m) << (left.cwiseQuotient(scale.cast<LongComplex>()) / product).transpose(),
         (v / product).transpose();
+    if (lambda.imag() == 0.0L) continue;
+    fine.values[m + 1] = std::conj(lambda);
+    fine.vectors.col(m + 1) = fine.vectors.col(m).conjugate();
+    fine.inverse.row(m + 1) = fine.inverse.row(m).conjugate();
   }
-  // Conjugate pairs stay exactly conjugate.
-  for (Index m = 0; m + 1 < count; ++m)
-    if (pairs.values[m].imag() > 0.0L) {
-      fine.values[m + 1] = std::conj(fine.values[m]);
-      fine.vectors.col(m + 1) = fine.vectors.col(m).conjugate();
-      fine.inverse.row(m + 1) = fine.inverse.row(m).conjugate();
-    }
   const long double departure =
       (fine.inverse * fine.vectors - LongComplexMatrix::Identity(count, count)).cwiseAbs().maxCoeff();
   if (departure < kSeparate) pairs = std::move(fine);

@@ -13,8 +13,8 @@ namespace {
 
 /// Errors below this part of the motion of the whole structure, in the norm of the diagonal of M, are rounding.
 constexpr double kRoundingOfMotion = 1e-14;
-/// The same of what the forces on a component cause within its own period: a light part does not share the rounding of
-/// heavy ones.
+/// But rounding of a component is at most this multiple of the same part of what it has and what the forces on it cause
+/// within its own period: a light part does not share the rounding of heavy ones.
 constexpr double kOfForces = 10.0;
 /// Errors of a step below this part of a component, or of what the forces on it cause in the step, are rounding.
 constexpr double kRoundingOfStep = 1e-15;

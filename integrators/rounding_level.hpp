@@ -29,8 +29,8 @@ class RoundingLevel {
   double rate_;
   bool is_lumped_;    ///< M is diagonal
   Vector root_mass_;  ///< of the diagonal of M, kg^(1/2) or kg^(1/2) m
-  /// Of a single DOF: the squared frequency, 1/s^2, and the highest of that frequency and the rate at which damping
-  /// slows it, 1/s; 0 without either.
+  /// The squared frequency of each DOF if the others are held, 1/s^2, and the larger of that frequency and the rate at
+  /// which damping slows it, 1/s; 0 without either.
   Vector own_square_, own_rate_;
   Vector most_x_, most_v_;  ///< bounds of the scales of the motion as a whole
   Vector stop_stiffness_;

@@ -75,7 +75,7 @@ struct Structure::Parts {
   std::optional<scene::Assembly> assembly{};
   std::vector<std::unique_ptr<record::Peaks>> peaks{};
   bool is_advancing = false;
-  bool has_jumped = false;  ///< the state, by a new motion or force, since the last step
+  bool has_jumped = false;  ///< the state has been set, or changed by a new force, since the last step
 
   std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
   void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
@@ -86,6 +86,11 @@ struct Structure::Parts {
   void take_jump() {
     if (!std::exchange(has_jumped, false)) return;
     for (const auto& each : peaks) each->take(assembly->simulation.state());
+  }
+  /// Takes a step; false at the end of the run.
+  bool advance() {
+    take_jump();
+    return assembly->simulation.advance();
   }
   /// Throws LogicError if the call comes from a function that advance_to() or advance_step() calls.
   void check_idle(const char* call) const {
@@ -236,7 +241,7 @@ bool Structure::advance_to(double t, const std::function<bool()>& goes_on) {
   if (t == time() && !simulation.report().message.empty()) throw RunError(simulation.report().message);
   if (t == time()) return true;
   if (simulation.report().message.empty()) simulation.set_end_time(t);
-  while (parts().take_jump(), simulation.advance())
+  while (parts().advance())
     if (goes_on && !goes_on()) return false;
   if (!simulation.report().completed) throw RunError(simulation.report().message);
   return true;
@@ -248,8 +253,7 @@ double Structure::advance_step(double limit) {
   simulation.start();
   check_time(limit, time(), false, "advance_step");
   if (simulation.report().message.empty()) simulation.set_end_time(limit);
-  parts().take_jump();
-  simulation.advance();
+  parts().advance();
   if (!simulation.report().message.empty()) throw RunError(simulation.report().message);
   return time();
 }

@@ -14,6 +14,22 @@ double hermite(double s, double h, double y0, double d0, double y1, double d1) {
   return r * r * ((1.0 + 2.0 * s) * y0 + s * h * d0) + s * s * ((3.0 - 2.0 * s) * y1 - r * h * d1);
 }
 
+/// The motion on the straight lines between both ends.
+void interpolate_straight(const State& from, const State& to, std::span<const double> times,
+                          std::span<const Index> dofs, Interpolated out) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double s = (times[k] - from.t) / (to.t - from.t);
+    const auto fill = [&](std::span<double> values, const Vector& begin, const Vector& end) {
+      if (values.empty()) return;
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        values[k * dofs.size() + i] = (1.0 - s) * begin[dofs[i]] + s * end[dofs[i]];
+    };
+    fill(out.x, from.x, to.x);
+    fill(out.v, from.v, to.v);
+    fill(out.a, from.a, to.a);
+  }
+}
+
 }  // namespace
 
 Interpolant::~Interpolant() = default;
@@ -56,26 +72,6 @@ std::span<const EnergyAt> Interpolant::energies(const State&, const State&, std:
 }
 
 void Interpolant::departure(const State&, const State&, double, double, std::span<const Index>, Interpolated) {}
-
-namespace {
-
-/// The motion on the straight lines between both ends.
-void interpolate_straight(const State& from, const State& to, std::span<const double> times,
-                          std::span<const Index> dofs, Interpolated out) {
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const double s = (times[k] - from.t) / (to.t - from.t);
-    const auto fill = [&](std::span<double> values, const Vector& begin, const Vector& end) {
-      if (values.empty()) return;
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        values[k * dofs.size() + i] = (1.0 - s) * begin[dofs[i]] + s * end[dofs[i]];
-    };
-    fill(out.x, from.x, to.x);
-    fill(out.v, from.v, to.v);
-    fill(out.a, from.a, to.a);
-  }
-}
-
-}  // namespace
 
 void DenseOutput::interpolate(std::span<const double> times, std::span<const Index> dofs, Interpolated out) const {
   if (times.empty()) return;

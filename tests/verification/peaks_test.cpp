@@ -114,28 +114,6 @@ std::map<std::string, double> embedded_peaks(const std::string& scene, double en
   return structure.peaks();
 }
 
-/// A force or a motion that an embedding program sets between steps: the state that it makes counts, at once and later;
-/// one that is replaced before a step or a question does not.
-TEST(PeaksOfJumps, AreThoseThatAProgramSets) {
-  const std::string scene =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
-      "\"ball\"\nstiffness = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 0.01\nstiffness = "
-      "1e5\nlaw = \"linear\"\n[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 1.0\n";
-  auto structure = embed::Structure::from_toml(scene, {{}, {BUTEE_TEST_PLUGINS}, {"ball"}});
-  using model::Quantity;
-  structure.follow_peaks("ball", {Quantity::u, Quantity::a, Quantity::contact_force});
-  structure.advance_to(0.01);
-  structure.set_force(0, 1e6);
-  structure.set_force(0, 100.0);
-  EXPECT_DOUBLE_EQ(structure.peak("ball", Quantity::a), 50.0);
-  structure.advance_to(0.011);
-  EXPECT_DOUBLE_EQ(structure.peak("ball", Quantity::a), 50.0);
-  structure.set_displacement(0, 0.05);
-  structure.advance_to(0.012);
-  EXPECT_GE(structure.peak("ball", Quantity::u), 0.05);  // it still moves on
-  EXPECT_GE(structure.peak("ball", Quantity::contact_force), 1e5 * (0.05 - 0.01));
-}
-
 /// 1 kg, 1e-3 N/m and 3.5 m/s against stops of 1e12 N/m at 100 m: the penetration of 1.5 um is 1.5e-8 of the
 /// displacement. Without the spring's work in contact the force is sqrt(1e12 N/m 1 kg) times the speed of impact, 1.5
 /// m/s.
@@ -572,75 +550,6 @@ TEST(PeaksOfLongSteps, AreThoseOfExact) {
     ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
     if (expected.empty()) expected = history.peaks();
     for (const auto& [column, peak] : expected) EXPECT_NEAR(history.peaks().at(column), peak, 1e-8 * peak) << column;
-  }
-}
-
-/// A step that ends with the motion of a base, whose acceleration stops there.
-TEST(PeaksOfLongSteps, AreThoseOfExactWhereALoadEnds) {
-  const std::string scene =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
-      "\"m\"\nstiffness = 800.0\ndamping = 1.6\n[base]\ndisplacement = { direction = [0, 1, 0], type = \"table\", "
-      "times "
-      "= [0.0, 2.0], values = [0.0, 0.01] }\n[integrator]\nend_time = 3.0\n";
-  std::map<std::string, double> expected;
-  for (const std::string method : {"exact", "exponential"}) {
-    SceneRun run(scene, {"integrator.type=" + method});
-    model::OutputRequest request;
-    request.interval = 1.0;
-    request.probes = {{"m",
-                       run.model().nodes.select("m").nodes.front(),
-                       {model::Quantity::uy, model::Quantity::uy_v, model::Quantity::uy_a},
-                       ""}};
-    record::HistoryRecorder history(request, 3.0, run.dynamics(), nullptr);
-    run.simulation().add(history);
-    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
-    if (expected.empty()) expected = history.peaks();
-    for (const auto& [column, peak] : expected) EXPECT_NEAR(history.peaks().at(column), peak, 1e-8 * peak) << column;
-  }
-}
-
-/// A base whose acceleration jumps at the end of its table, where a row falls: steps over the jump are a rounding of t
-/// long.
-TEST(PeaksAtJumps, AreNotDifferencesOfRounding) {
-  std::string times, values;
-  for (int i = 0; i <= 30; ++i) {
-    times += (i == 0 ? "" : ", ") + to_text(0.1 * i - 1.0);
-    values += (i == 0 ? "" : ", ") + to_text(0.01 * std::sin(7.0 * (0.1 * i - 1.0)));
-  }
-  const std::string scene =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
-      "\"m\"\nstiffness = 800.0\ndamping = 1.6\n[base]\ndisplacement = { direction = [0, 1, 0], type = \"table\", "
-      "times "
-      "= [" +
-      times + "], values = [" + values + "] }\n[integrator]\nend_time = 3.0\n";
-  std::map<std::string, double> expected;
-  for (const std::string method : {"exact", "extrapolation8", "dopri5", "rodas4"}) {
-    SceneRun run(scene, {"integrator.type=" + method});
-    model::OutputRequest request;
-    request.interval = 0.01;
-    request.probes = {
-        {"m", run.model().nodes.select("m").nodes.front(), {model::Quantity::a_abs, model::Quantity::v_abs}, ""}};
-    record::HistoryRecorder history(request, 3.0, run.dynamics(), nullptr);
-    run.simulation().add(history);
-    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
-    if (expected.empty()) expected = history.peaks();
-    for (const auto& [column, peak] : expected)
-      EXPECT_NEAR(history.peaks().at(column), peak, 1e-3 * peak) << method << " " << column;
-  }
-}
-
-/// A ramp of 4500 roundings of t.
-TEST(EnergyOfSteepRamps, IsThatOfTheJump) {
-  const std::string scene =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
-      "\"m\"\nstiffness = 800.0\ndamping = 1.6\n[[load]]\ntype = \"ramp\"\nnode = \"m\"\nto = 50.0\nstart = 1.0\nend = "
-      "1.000000000001\n[integrator]\nend_time = 3.0\n[output]\ninterval = 0.05\nenergy = true\n";
-  for (const std::string method : {"exponential", "dopri5", "piecewise"}) {
-    SceneRun run(scene, {"integrator.type=" + method});
-    record::EnergyRecorder energy(run.dynamics(), nullptr, record::OutputTimes(0.05, 0, 3.0));
-    run.simulation().add(energy);
-    ASSERT_TRUE(run.run().completed) << method << ": " << run.simulation().report().message;
-    EXPECT_NEAR(energy.balance_error(), 0.0, 1e-4) << method;
   }
 }
 
