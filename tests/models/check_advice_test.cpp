@@ -153,6 +153,76 @@ TEST(CheckAdvice, KnowsStiffnessRatioAndDurationOfAnImpact) {
   EXPECT_EQ(json["mass"], 100.0);
 }
 
+/// Disc of inertia 0.5 kg m2 on 200 N m/rad between stops at 0.02 rad, and a mass on 1e4 N/m with a stop at 1 mm: each
+/// kind of stop has its own line in its own unit. The law's residual force is k/(pi^2 lambda).
+TEST(CheckAdvice, KeepsRotationsAndDisplacementsApart) {
+  const TemporaryFolder folder;
+  folder.write("disc.toml", R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 4.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 1e4
+[[element]]
+type = "mass"
+name = "d"
+mass = 1.0
+rotary_inertia = 0.5
+[[support]]
+nodes = "d"
+fix = ["u"]
+[[element]]
+type = "spring"
+node = "d"
+dof = "theta"
+stiffness = 200.0
+[[contact]]
+type = "stop"
+nodes = "m"
+sides = "positive"
+gap = 1e-3
+stiffness = 1e6
+[[contact]]
+type = "stop"
+nodes = "d"
+dof = "theta"
+gap = 0.02
+law = "arctan"
+stiffness = 1e4
+regularization = 1e3
+[[load]]
+node = "m"
+type = "harmonic"
+amplitude = 5.0
+angular_frequency = 10.0
+[[load]]
+node = "d"
+dof = "theta"
+type = "harmonic"
+amplitude = 3.0
+angular_frequency = 10.0
+[integrator]
+end_time = 1.0
+)");
+  const Json contact = check(folder.file("disc.toml"))["contact"];
+  EXPECT_NEAR(contact["static_deflection"].get<double>(), 5.0 / 1e4, 1e-15);
+  EXPECT_NEAR(contact["smallest_gap"].get<double>(), 1e-3, 1e-15);
+  EXPECT_NEAR(contact["static_rotation"].get<double>(), 3.0 / 200.0, 1e-14);
+  EXPECT_NEAR(contact["smallest_gap_of_rotation"].get<double>(), 0.02, 1e-15);
+  const Outcome outcome = run_program({"check", folder.file("disc.toml")}, folder.path());
+  EXPECT_NE(
+      outcome.output.find("rotation at a stop under the load amplitudes is 0.015 rad; the smallest gap is 0.02 rad"),
+      std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.errors.find("residual force of up to 1.01321 N m"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("displace the structure at rest by 0.00506606 rad, 0.253303 of the gap"),
+            std::string::npos)
+      << outcome.errors;
+}
+
 /// The force of an unbalance of 2e-3 kg m at 150 rad/s has the constant size 45 N, whatever its components are; with
 /// stiffnesses of 1e5 and 2e5 N/m the body goes round an ellipse.
 TEST(CheckAdvice, AddsTheComponentsOfAnUnbalanceByTheirPhases) {

@@ -108,43 +108,51 @@ class Adviser {
   void judge_laws() {
     for (const model::FreeStops& stops : system_.stops) {
       if (stops.play.gap <= 0.0) continue;
+      const bool turns = acts_on_rotation(system_, stops);
       const double share = stops.law->secant(-kNearPart * stops.play.gap) / stops.law->closed_stiffness();
       if (share > kSoftStart)
         add("regularization",
-            "a stop with the gap " + to_short_text(stops.play.gap) + " m has " + to_short_text(100.0 * share) +
+            "a stop with the gap " + to_short_text(stops.play.gap) + (turns ? " rad has " : " m has ") +
+                to_short_text(100.0 * share) +
                 " % of its stiffness while it is still open by a tenth of that: the regularization is too small for "
                 "the gap; take at least " +
                 to_short_text(1.0 / (std::numbers::pi * std::numbers::pi * kNearPart * stops.play.gap * kSoftStart)) +
-                " 1/m, or law = \"linear\"");
+                (turns ? " 1/rad" : " 1/m") + ", or law = \"linear\"");
     }
   }
 
   void judge_pull() {
-    double pull = 0.0, smallest_gap = std::numeric_limits<double>::infinity();
-    bool at_rest = false;
+    const auto pull = residual_pull(system_);
+    if (!pull) return;
+    const double gap = pull->stops->play.gap;
+    const auto force_text = [this](double factor, const model::FreeStops& stops) {
+      return to_short_text(factor * stops.law->asymptotic_force()) + (acts_on_rotation(system_, stops) ? " N m" : " N");
+    };
+    if (!pull->displacement || *pull->displacement > kNoticeablePull * gap)
+      add("pull",
+          "the arctan law has a residual force of up to " + force_text(1.0, *pull->stops) +
+              " at every open stop, for any opening" +
+              (pull->displacement
+                   ? "; together these forces displace the structure at rest by " + to_short_text(*pull->displacement) +
+                         (acts_on_rotation(system_, *pull->stops) ? " rad" : " m") +
+                         (gap > 0.0 ? ", " + to_short_text(*pull->displacement / gap) + " of the gap" : "")
+                   : "") +
+              ". A larger regularization reduces it, law = \"linear\" has none");
     for (const auto& stops : system_.stops) {
-      if (stops.law->asymptotic_force() == 0.0) continue;
-      pull = std::max(pull, stops.law->asymptotic_force());
-      smallest_gap = std::min(smallest_gap, stops.play.gap);
-      for (std::size_t i = 0; i < stops.size() && stops.play.has_both(); ++i) {
-        const double ua = stops.a[i] >= 0 ? system_.initial_displacement[stops.a[i]] : 0.0;
-        const double ub = stops.b[i] >= 0 ? system_.initial_displacement[stops.b[i]] : 0.0;
-        at_rest = at_rest || ua == ub;
-      }
-    }
-    if (pull == 0.0) return;
-    const auto moved = pull_displacement(system_);
-    if (!moved || *moved > kNoticeablePull * smallest_gap)
-      add("pull", "the arctan law has a residual force of up to " + to_short_text(pull) +
-                      " N at every open stop, for any opening" +
-                      (moved ? "; together these forces displace the structure at rest by " + to_short_text(*moved) +
-                                   " m, " + to_short_text(*moved / smallest_gap) + " of the gap"
-                             : "") +
-                      ". A larger regularization reduces it, law = \"linear\" has none");
-    if (at_rest)
-      add("jump", "with the arctan law the force of a stop on both sides jumps by " + to_short_text(2.0 * pull) +
-                      " N at u = 0, where this scene starts: rounding decides the direction of the force, which limits "
+      if (stops.law->asymptotic_force() == 0.0 || !stops.play.has_both() || !starts_in_the_middle(stops)) continue;
+      add("jump", "with the arctan law the force of a stop on both sides jumps by " + force_text(2.0, stops) +
+                      " at u = 0, where this scene starts: rounding decides the direction of the force, which limits "
                       "reproducibility. law = \"linear\" has no jump");
+      break;
+    }
+  }
+
+  /// Whether one of the stops has no displacement at the start.
+  bool starts_in_the_middle(const model::FreeStops& stops) const {
+    const auto displacement = [this](Index i) { return i >= 0 ? system_.initial_displacement[i] : 0.0; };
+    for (std::size_t i = 0; i < stops.size(); ++i)
+      if (displacement(stops.a[i]) == displacement(stops.b[i])) return true;
+    return false;
   }
 
   void judge_gaps() {

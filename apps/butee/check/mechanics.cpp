@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include <Eigen/SparseCholesky>
@@ -58,15 +57,21 @@ class Compliance {
 /// One stop, ring or plane: where it acts, and whether a displacement closes it.
 class Stop {
  public:
-  Stop(const model::FreeStops& group, std::size_t i)
-      : law_(group.law), play_(&group.play), a_{group.a[i], kGround}, b_{group.b[i], kGround} {}
+  Stop(const model::System& system, const model::FreeStops& group, std::size_t i)
+      : law_(group.law),
+        play_(&group.play),
+        a_{group.a[i], kGround},
+        b_{group.b[i], kGround},
+        turns_(acts_on_rotation(system, group)) {}
   Stop(const model::ObstacleGroup& group, const model::FreeObstacles::Ends& ends)
       : law_(group.law.get()), shape_(group.shape.get()), a_{ends.a[0], ends.a[1]}, b_{ends.b[0], ends.b[1]} {
+    turns_ = !group.directions.empty() && is_rotation(group.directions.front());
     const model::ContactShape::Form form = shape_->form();
     is_round_ = form.kind == model::ContactShape::Form::Kind::circle;
     if (form.kind == model::ContactShape::Form::Kind::line) direction_ = form.place;
   }
 
+  bool turns() const { return turns_; }
   double stiffness() const { return law_->closed_stiffness(); }
   double gap() const { return play_ != nullptr ? play_->gap : 0.0 - shape_->at({0.0, 0.0}).penetration; }
   /// The displacement towards it, or of any direction in a ring.
@@ -110,12 +115,13 @@ class Stop {
   std::array<Index, 2> a_, b_;
   Eigen::Vector2d direction_ = {1.0, 0.0};
   bool is_round_ = false;
+  bool turns_ = false;  ///< it acts on a rotation
 };
 
 std::vector<Stop> stops_of(const model::System& system) {
   std::vector<Stop> stops;
   for (const model::FreeStops& group : system.stops)
-    for (std::size_t i = 0; i < group.size(); ++i) stops.emplace_back(group, i);
+    for (std::size_t i = 0; i < group.size(); ++i) stops.emplace_back(system, group, i);
   for (const model::FreeObstacles& obstacles : system.obstacles)
     if (obstacles.group->shape != nullptr && obstacles.group->law != nullptr)
       for (const model::FreeObstacles::Ends& ends : obstacles.ends) stops.emplace_back(*obstacles.group, ends);
@@ -183,7 +189,10 @@ void add_statics(const model::System& system, Compliance& compliance, const std:
   for (const auto& [frequency, moved] : oscillations)
     for (std::size_t i = 0; i < stops.size(); ++i)
       largest[static_cast<Index>(i)] += stops[i].size_of(moved.first, moved.second);
-  result.static_deflection = largest.maxCoeff();
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    std::optional<double>& of_kind = (stops[i].turns() ? result.rotations : result.displacements)->static_deflection;
+    of_kind = std::max(of_kind.value_or(0.0), largest[static_cast<Index>(i)]);
+  }
   result.closed_by_constants =
       std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) { return stop.is_shut(constant); });
 }
@@ -196,7 +205,6 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
   if (stops.empty()) return result;
   Compliance compliance(system);
   result.shortest_contact = dynamics::shortest_impact(system);
-  result.smallest_gap = std::numeric_limits<double>::infinity();
   const auto stride = std::max<std::size_t>(1, stops.size() / kMostSamples);
   for (std::size_t i = 0; i < stops.size(); i += stride) {
     const Stop& stop = stops[i];
@@ -210,24 +218,44 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
     ++result.sampled;
   }
   for (const Stop& stop : stops) {
-    result.smallest_gap = std::min(result.smallest_gap, stop.gap());
+    std::optional<Mechanics::Play>& of_kind = stop.turns() ? result.rotations : result.displacements;
+    if (!of_kind) of_kind = {.smallest_gap = stop.gap(), .static_deflection = {}};
+    of_kind->smallest_gap = std::min(of_kind->smallest_gap, stop.gap());
     result.closed_at_start += stop.is_shut(system.initial_displacement) ? 1 : 0;
   }
   if (compliance.exists()) add_statics(system, compliance, stops, end_time, result);
   return result;
 }
 
-std::optional<double> pull_displacement(const model::System& system) {
+bool acts_on_rotation(const model::System& system, const model::FreeStops& stops) {
+  return is_rotation(system.dofs.free()[static_cast<std::size_t>(std::max(stops.a[0], stops.b[0]))].kind);
+}
+
+std::optional<ResidualPull> residual_pull(const model::System& system) {
   Vector force = Vector::Zero(system.size());
-  for (const auto& stops : system.stops)
+  std::optional<ResidualPull> largest;
+  for (const auto& stops : system.stops) {
+    const double pull = (stops.play.has_positive() ? 1.0 : -1.0) * stops.law->asymptotic_force();
+    if (pull == 0.0 || stops.size() == 0) continue;
+    if (!largest) largest = {.stops = &stops, .displacement = {}};
     for (std::size_t i = 0; i < stops.size(); ++i) {
-      const double pull = (stops.play.has_positive() ? 1.0 : -1.0) * stops.law->asymptotic_force();
       if (stops.a[i] >= 0) force[stops.a[i]] += pull;
       if (stops.b[i] >= 0) force[stops.b[i]] -= pull;
     }
+  }
+  if (!largest) return largest;
   Compliance compliance(system);
-  if (!compliance.exists()) return std::nullopt;
-  return compliance.times(force).lpNorm<Eigen::Infinity>();
+  if (!compliance.exists()) return largest;
+  const Vector moved = compliance.times(force);
+  largest->displacement = 0.0;
+  for (const auto& stops : system.stops)
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      const double displacement =
+          std::abs((stops.a[i] >= 0 ? moved[stops.a[i]] : 0.0) - (stops.b[i] >= 0 ? moved[stops.b[i]] : 0.0));
+      if (displacement * largest->stops->play.gap > *largest->displacement * stops.play.gap)
+        largest = {.stops = &stops, .displacement = displacement};
+    }
+  return largest;
 }
 
 }  // namespace butee::app::check

@@ -126,6 +126,13 @@ void print_step(const scene::Scene& session, const Facts& facts) {
                 to_short_text(facts.of_method->closed / h).c_str());
 }
 
+void print_play(const std::optional<Mechanics::Play>& play, const char* kind, const char* unit) {
+  if (play && play->static_deflection && play->smallest_gap > 0.0)
+    std::printf("static     the static %s at a stop under the load amplitudes is %s %s; the smallest gap is %s %s\n",
+                kind, to_short_text(*play->static_deflection).c_str(), unit, to_short_text(play->smallest_gap).c_str(),
+                unit);
+}
+
 void print_mechanics(const Mechanics& mechanics) {
   if (mechanics.sampled == 0) return;
   if (mechanics.least_ratio)
@@ -133,10 +140,8 @@ void print_mechanics(const Mechanics& mechanics) {
                 span(*mechanics.least_ratio, *mechanics.largest_ratio).c_str());
   if (std::isfinite(mechanics.shortest_contact))
     std::printf("contact    an impact lasts about %s s or longer\n", to_short_text(mechanics.shortest_contact).c_str());
-  if (mechanics.static_deflection && mechanics.smallest_gap > 0.0)
-    std::printf(
-        "static     the static displacement at a stop under the load amplitudes is %s m; the smallest gap is %s m\n",
-        to_short_text(*mechanics.static_deflection).c_str(), to_short_text(mechanics.smallest_gap).c_str());
+  print_play(mechanics.displacements, "displacement", "m");
+  print_play(mechanics.rotations, "rotation", "rad");
 }
 
 std::string size_of(double bytes) {
@@ -180,8 +185,14 @@ Json json_of(const Mechanics& mechanics) {
   json["least_stiffness_ratio"] = json_of(mechanics.least_ratio);
   json["largest_stiffness_ratio"] = json_of(mechanics.largest_ratio);
   json["shortest_contact"] = mechanics.shortest_contact;
-  json["smallest_gap"] = mechanics.smallest_gap;
-  json["static_deflection"] = json_of(mechanics.static_deflection);
+  if (mechanics.displacements) {
+    json["smallest_gap"] = mechanics.displacements->smallest_gap;
+    json["static_deflection"] = json_of(mechanics.displacements->static_deflection);
+  }
+  if (mechanics.rotations) {
+    json["smallest_gap_of_rotation"] = mechanics.rotations->smallest_gap;
+    json["static_rotation"] = json_of(mechanics.rotations->static_deflection);
+  }
   return json;
 }
 
