@@ -15,7 +15,12 @@ constexpr double kClose = 1e-6;
 /// The quotient of energies is the mean of the force along a straight path, also if a stop closes on it.
 constexpr double kKink = 0.0;
 /// Rounding of the energy differences limits the residual to this fraction of all forces.
-constexpr NewtonOptions kNewtonOfEnergies = {1e-9, 1e-7, 40, false, false};
+constexpr NewtonOptions kNewtonOfEnergies = {.residual_tolerance = 1e-9,
+                                             .increment_tolerance = 1e-7,
+                                             .max_iterations = 40,
+                                             .checks_linear_too = false,
+                                             .takes_guess = false,
+                                             .checks_each_stop = true};
 
 }  // namespace
 

@@ -15,7 +15,12 @@ inline constexpr double kRungeKutta4DampingLimit = 2.7852935634052818;
 
 /// Options of Newton's iteration for methods without parameters for it: convergence to rounding, as
 /// the local error estimates require.
-inline constexpr NewtonOptions kNewton = {1e-11, 1e-9, 40, false, false, false};
+inline constexpr NewtonOptions kNewton = {.residual_tolerance = 1e-11,
+                                          .increment_tolerance = 1e-9,
+                                          .max_iterations = 40,
+                                          .checks_linear_too = false,
+                                          .takes_guess = false,
+                                          .checks_each_stop = true};
 
 time::IntegratorType auto_type();
 time::IntegratorType bathe_type();

@@ -1,6 +1,8 @@
 #include "integrators/stage_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <butee/core/blocks.hpp>
 #include <butee/core/zeros.hpp>
@@ -14,7 +16,8 @@ using time::StepStatus;
 
 namespace {
 
-/// A residual below this part of the sum of the magnitudes of the forces is their rounding.
+/// A residual below this part of the sum of the magnitudes of the forces is their rounding: some operations of 1.1e-16
+/// each.
 constexpr double kRounding = 1e-15;
 
 double square_of(ConstVectorRef y, Index begin, Index count) {
@@ -29,6 +32,9 @@ StageSolver::StageSolver(dynamics::Dynamics& dynamics, NewtonOptions options) : 
   stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
   stop_stiffness_ = dynamics.stops().closed_stiffness();
   magnitudes_ = zeros(dynamics.size());
+  if (!options.checks_each_stop || dynamics.stop_count() == 0) return;
+  expected_force_ = Vector::Zero(dynamics.stop_count());
+  masses_ = dynamics.system().mass.diagonal();
 }
 
 StepReport StageSolver::solve(double t, double velocity_factor, double displacement_factor, VectorRef x, VectorRef v,
@@ -50,10 +56,9 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
       return report;
     }
     if (first || displacement_factor * last.correction <= options_.increment_tolerance * last.x) {
-      const double residual = balance.residual();
-      const bool is_small = residual <= options_.residual_tolerance * scale;
-      if (is_small && (!first || options_.takes_guess)) return report;
-      if ((is_small || !first) && is_rounding(x, v, a, residual)) return report;
+      const bool is_small = balance.residual() <= options_.residual_tolerance * scale;
+      if (is_small && (first ? options_.takes_guess : stops_agree(x, a))) return report;
+      if ((is_small || !first) && is_rounding(x, v, a)) return report;
     }
     if (report.newton_iterations == options_.max_iterations) break;
     if (!first && has_stops) contact(stop_displacement_, true, stop_force_, stop_tangent_);
@@ -71,7 +76,24 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
   return report;
 }
 
-bool StageSolver::is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double residual) {
+bool StageSolver::stops_agree(ConstVectorRef x, ConstVectorRef a) const {
+  const dynamics::ElasticStops& stops = dynamics_.stops();
+  for (Index i = 0; i < expected_force_.size(); ++i) {
+    const double misfit = std::abs(stop_force_[i] - expected_force_[i]);
+    if (misfit == 0.0) continue;
+    double inertia = std::numeric_limits<double>::infinity(), size = stops.play_of(i).gap;
+    for (const Index dof : {stops.dof_a(i), stops.dof_b(i)}) {
+      if (dof < 0) continue;
+      inertia = std::min(inertia, masses_[dof] * std::abs(a[dof]));
+      size += std::abs(x[dof]);
+    }
+    const double rounding = kRounding * std::max(stop_stiffness_[i], std::abs(stop_tangent_[i])) * size;
+    if (misfit > options_.residual_tolerance * (std::abs(stop_force_[i]) + inertia) + rounding) return false;
+  }
+  return true;
+}
+
+bool StageSolver::is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a) {
   const model::System& system = dynamics_.system();
   const model::Damping& damping = system.damping;
   magnitudes_ = load_.cwiseAbs();
@@ -90,7 +112,7 @@ bool StageSolver::is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef
     for (const Index dof : ends)
       if (dof >= 0) magnitudes_[dof] += stop_stiffness_[i] * displacement;
   }
-  return residual <= kRounding * magnitudes_.norm();
+  return (residual_.array().abs() <= kRounding * magnitudes_.array()).all();
 }
 
 StageSolver::Change StageSolver::add_correction(double velocity_factor, double displacement_factor, VectorRef x,
@@ -113,7 +135,9 @@ StageSolver::Change StageSolver::add_correction(double velocity_factor, double d
 linalg::ForceBalance StageSolver::evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
                                                     bool with_tangent) {
   if (dynamics_.stop_count() > 0) {
+    if (expected_force_.size() > 0) expected_force_ = stop_force_ + stop_tangent_.cwiseProduct(stop_displacement_);
     dynamics_.stops().displacement(x, stop_displacement_);
+    if (expected_force_.size() > 0) expected_force_ -= stop_tangent_.cwiseProduct(stop_displacement_);
     contact(stop_displacement_, with_tangent, stop_force_, stop_tangent_);
   }
   return dynamics_.residual(load_, stop_force_, x, v, a, residual_);

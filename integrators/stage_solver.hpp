@@ -11,8 +11,12 @@ struct NewtonOptions {
   bool keep_failures = false;     ///< continue if the iteration did not converge
   bool checks_linear_too = true;  ///< check the residual after the solve also without stops
   /// True: a guess whose residual meets residual_tolerance is the solution. False: only one whose residual is rounding;
-  /// otherwise a structure at rest drifts by the acceleration that the tolerance lets pass.
+  /// otherwise a structure at rest drifts by the acceleration that the tolerance lets pass, and light parts beside
+  /// heavy ones move with a late acceleration.
   bool takes_guess = true;
+  /// True: the force of each stop, too, must agree with its linearisation, to eps_r of the force itself and of the
+  /// inertia force there. The norms of the whole do not see a stop on a light part.
+  bool checks_each_stop = false;
 };
 
 /// Solves the equations of motion of one stage of an implicit method by Newton's iteration,
@@ -47,14 +51,18 @@ class StageSolver {
   };
   /// Adds the solution in residual_ to a, and to v and x with their factors.
   Change add_correction(double velocity_factor, double displacement_factor, VectorRef x, VectorRef v, VectorRef a);
-  /// Whether a residual is but rounding of the forces in balance.
-  bool is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double residual);
+  /// Whether the residual of every equation is but rounding of the forces in it.
+  bool is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a);
+  /// Whether the stops have the forces that the last solve expected of them.
+  bool stops_agree(ConstVectorRef x, ConstVectorRef a) const;
   linalg::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
 
   dynamics::Dynamics& dynamics_;
   NewtonOptions options_;
   Vector load_, residual_;
   Vector stop_displacement_, stop_force_, stop_tangent_, stop_stiffness_;
+  Vector expected_force_;  ///< of the stops, by the linearisation of the last solve
+  Vector masses_;          ///< diagonal of M; empty unless options_.checks_each_stop
   Vector magnitudes_;
 };
 

@@ -34,8 +34,8 @@ struct StructureOptions {
 /// process and on several threads, each used by one thread at a time. The scene's [integrator]
 /// gives the method and tolerance. Its end_time is the duration for which they are chosen: errors of
 /// the steps are kept small enough to meet the tolerance after it; the structure may go on beyond.
-/// Between two calls of advance_to()
-/// forces are linear in time, so that a partitioned iteration is of second order in its windows.
+/// Between two calls of advance_to() forces are constant or linear in time; with linear ones a
+/// partitioned iteration is of second order in its windows.
 /// Bad input throws InputError, a failed step RunError with the diagnosis. Checked in tests/embed
 /// against the same system solved as one.
 class BUTEE_EXPORT Structure {

@@ -178,7 +178,7 @@ const char* unit_at(const Model& model, NodeId node, Quantity quantity) {
 
 std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
                     const std::string& element) {
-  const NodalDof dof{node, kind_of(quantity)};
+  const NodalDof dof{node, contact_kind(model, node, quantity)};
   const std::string none = std::string("there is no ") + name_of(quantity) + ": ";
   if (is_absolute(quantity) && model.bases.empty())
     return none + "the base does not move, so that u, v and a are those in space; give [base], or request these";

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -100,6 +102,29 @@ TEST_F(MatricesFile, AreNamedInModelTomlAndFoundFromThere) {
 }
 
 /// x = v/omega sinh(omega t) for a stiffness of -1000 N/m on 2 kg: no mode of a structure at rest.
+/// A node that moves along x alone has its contact force there: k (gap - |x|) towards the middle.
+TEST_F(MatricesFile, ContactForceIsAlongTheOnlyDirectionOfANode) {
+  folder_.write("s.toml",
+                "schema = 1\n[[element]]\ntype = \"matrices\"\nname = \"two\"\n" + files_ +
+                    "dofs = \"ux\"\n[[contact]]\ntype = \"stop\"\nnodes = \"two:0\"\ndof = \"ux\"\ngap = "
+                    "0.01\nstiffness = 1e4\n[initial]\nvelocity = [{ nodes = \"two:0\", dof = \"ux\", value = 1.0 "
+                    "}]\n[integrator]\nend_time = 0.2\n[[output.probe]]\nnode = \"two:0\"\nquantities = [\"ux\", "
+                    "\"contact_force\"]\n");
+  const Outcome outcome = run_program({"run", "s.toml", "-q", "-o", "out"}, folder_.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  std::istringstream rows(read_file(folder_.file("out/history.csv")));
+  std::string row;
+  std::getline(rows, row);
+  double largest = 0.0;
+  while (std::getline(rows, row)) {
+    double t = 0.0, x = 0.0, force = 0.0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf", &t, &x, &force), 3) << row;
+    EXPECT_NEAR(force, -std::copysign(1e4 * std::max(std::abs(x) - 0.01, 0.0), x), 1e-9) << "t = " << t;
+    largest = std::max(largest, std::abs(force));
+  }
+  EXPECT_GT(largest, 100.0);
+}
+
 TEST_F(MatricesFile, OfAnUnstableStructureHaveNoModes) {
   folder_.write("unstable.mtx", kSymmetric + "2 2 2\n1 1 -1000.0\n2 2 3e5\n");
   const auto scene = [](const std::string& type) {

@@ -181,9 +181,48 @@ amplitude = 400.0
 angular_frequency = 60.0
 )";
 
-inline constexpr Scene kScenes[] = {{"struck_beam", kStruckBeam, 0.06}, {"light_part", kLightPart, 0.1},
-                                    {"rotations", kRotations, 0.05},    {"hard_stop", kHardStop, 0.5},
-                                    {"impulse", kImpulse, 0.2},         {"free_bodies", kFreeBodies, 0.6},
-                                    {"switched_on", kSwitchedOn, 0.1}};
+/// A light body that strikes a stop, and a lighter one that swings freely, beside the large force on a heavy one.
+inline constexpr const char* kBesideLargeForce = R"(
+[[element]]
+type = "mass"
+name = "heavy"
+mass = 1e3
+[[element]]
+type = "mass"
+name = "bouncing"
+mass = 1e-8
+[[element]]
+type = "spring"
+node = "bouncing"
+stiffness = 0.01
+[[element]]
+type = "mass"
+name = "swinging"
+mass = 3e-9
+[[element]]
+type = "spring"
+node = "swinging"
+stiffness = 0.02
+[[contact]]
+type = "stop"
+nodes = "bouncing"
+gap = 5e-4
+sides = "positive"
+law = "arctan"
+stiffness = 10.0
+regularization = 3e4
+[[load]]
+node = "heavy"
+type = "constant"
+value = 1e6
+[initial]
+velocity = [{ nodes = "bouncing", value = 1.0 }, { nodes = "swinging", value = 0.5 }]
+)";
+
+inline constexpr Scene kScenes[] = {
+    {"struck_beam", kStruckBeam, 0.06}, {"light_part", kLightPart, 0.1},
+    {"rotations", kRotations, 0.05},    {"hard_stop", kHardStop, 0.5},
+    {"impulse", kImpulse, 0.2},         {"free_bodies", kFreeBodies, 0.6},
+    {"switched_on", kSwitchedOn, 0.1},  {"beside_large_force", kBesideLargeForce, 0.02}};
 
 }  // namespace butee::test::promise_test

@@ -14,8 +14,8 @@ Snapshot = _butee.Snapshot
 class Structure:
     """A scene that another solver advances in time, reads, loads by forces and resets; created by ``Scene.structure``.
 
-    Forces act on the degrees of freedom of ``forced`` and are linear in time between two calls of ``advance_to``, so that a
-    partitioned iteration is of second order in its windows. Vectors are arrays of shape (n,) over the free degrees of freedom
+    Forces act on the degrees of freedom of ``forced``. ``forces`` and ``set_force`` set constant ones, ``set_forces`` ones that vary
+    linearly in time, with which a partitioned iteration is of second order in its windows. Vectors are arrays of shape (n,) over the free degrees of freedom
     ``dofs``; force vectors have shape (forced,). Only one thread at a time can use a structure; another one gets a RunError.
 
     >>> part = scene.structure(forced=["rotor"])
