@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "butee/dynamics/dynamics.hpp"
@@ -31,9 +32,12 @@ class HiddenModes {
     Index index;
     double rate;  ///< 1/s: the fastest change of its motion, by itself, its decay or a harmonic load
   };
+  /// The number of parts for the displacements or the rotations, whose largest value in each mode is given.
+  double parts(const State& from, const State& to, Through polynomial, const Eigen::ArrayXd& sizes) const;
+
   std::vector<Mode> modes_;
-  Eigen::ArrayXd sizes_;  ///< largest displacement of each mode
-  double allowed_;        ///< error between breakpoints, relative to the displacements of all modes
+  std::array<Eigen::ArrayXd, 2> sizes_;  ///< largest displacement and largest rotation of each mode
+  double allowed_;                       ///< error between breakpoints, relative to the motion of all modes
 };
 
 }  // namespace butee::integrators
