@@ -61,12 +61,13 @@ ContactPropagator::ContactPropagator(ModalPropagator whole_flow, ModalPropagator
   swing_q = (kHermite * angle.square().square()).min(2.0 + 0.25 * angle) * shape;
   swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
   // Within a step a force moves a mode by at most this (also in resonance), and away from the cubic
-  // by at most h^4/384 times the fourth derivative, f'' - omega^2 f.
+  // by at most h^4/384 times the fourth derivative, f'' - omega^2 f. f'' of a parabola is 4 bend/h^2.
   const Eigen::ArrayXd most = h() * h() * (angle > 2.0).select((angle + 2.0) / angle.square().max(1.0), 1.0) * shape;
-  swing_force = most * (kHermite * angle.square()).min(1.0);
+  swing_force = most * (kHermite * angle.square()).min(2.0 + 0.25 * angle);
+  swing_bend = 4.0 * kHermite * most;
   for (const ModalHarmonic& harmonic : harmonics) {
     const double turn = h() * harmonic.angular_frequency;
-    swing_harmonics += (most * (kHermite * (angle.square() + turn * turn)).min(1.0) *
+    swing_harmonics += (most * (kHermite * (angle.square() + turn * turn)).min(2.0 + 0.25 * angle) *
                         (harmonic.cosine.square() + harmonic.sine.square()).sqrt())
                            .sum();
   }

@@ -90,8 +90,9 @@ class BUTEE_EXPORT ContactPropagator {
   /// Bounds, per unit q and per unit v of a mode at the start, on the departure of any stop's path
   /// from the cubic through both of its ends.
   Eigen::ArrayXd swing_q, swing_v;
-  /// The same per unit of a constant modal force, and for all harmonic loads together, m.
-  Eigen::ArrayXd swing_force;
+  /// The same per unit of a constant modal force, per unit of LoadParabola::bend() of one, and for all harmonic loads
+  /// together, m.
+  Eigen::ArrayXd swing_force, swing_bend;
   double swing_harmonics = 0.0;
 
  private:

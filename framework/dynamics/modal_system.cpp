@@ -101,7 +101,8 @@ void ModalSystem::project_loads(const Dynamics& dynamics) {
     if (!harmonic && !load.in_time->is_piecewise_parabolic())
       throw InputError(
           "integrator.type: a load of this scene is neither harmonic nor made of straight lines or parabolas in time, "
-          "such as the unbalance of a run-up or the smooth curve of a [base] displacement table beside frame = \"space\" "
+          "such as the unbalance of a run-up or the smooth curve of a [base] displacement table beside frame = "
+          "\"space\" "
           "or [[base]] nodes, so its response has no closed form");
     if (!harmonic) {
       other_loads_.push_back({load.in_time, std::move(shape)});

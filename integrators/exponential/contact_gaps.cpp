@@ -87,9 +87,11 @@ bool DisplacementBounds::find_carried(const Eigen::ArrayXd& start_speed, const d
 
 void DisplacementBounds::find(const dynamics::ContactPropagator& flow, const TriedStep& step) {
   of_loads_ = flow.swing_harmonics;
-  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads())
-    of_loads_ += dynamics::LoadParabola(*load.in_time, step.t, step.t + step.h).largest() *
-                 (flow.swing_force * load.shape.abs()).sum();
+  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) {
+    const dynamics::LoadParabola force(*load.in_time, step.t, step.t + step.h);
+    of_loads_ += force.largest() * (flow.swing_force * load.shape.abs()).sum();
+    if (force.bend() != 0.0) of_loads_ += std::abs(force.bend()) * (flow.swing_bend * load.shape.abs()).sum();
+  }
   beyond_cubic_ = (flow.swing_q * step.from.q.abs() + flow.swing_v * step.from.v.abs()).sum() + of_loads_;
   update(step);
 }

@@ -160,7 +160,8 @@ def interpolation():
         wave = lambda s, d: angle ** d * np.cos(angle * np.asarray(s) + turn + 0.5 * np.pi * d)
         s = np.linspace(0.0, 1.0, 801)
         off = np.abs(wave(s, 0) - interpolated(3, wave, s, 0)).max()
-        note(f"cubic, omega h = {angle}: departure (the code takes 2)", off)
+        compare(f"cubic, omega h = {angle}: departure", float(in_code(r"min\(2\.0 \+ ([\d.]+) \* angle\)")) * angle + 2.0,
+                off, ">=", 3.0)
 
 
 def discontinuities():

@@ -1,5 +1,6 @@
-// Peaks and energies where loads or the motion jump: at the end of a base's table, at a ramp of a few roundings of t,
-// and where an embedding program sets a force or a motion. References: `exact`, and values that follow from the scene.
+// Loads that change within steps. Peaks and energies where loads or the motion jump: at the end of a base's table, at a
+// ramp of a few roundings of t, and where an embedding program sets a force or a motion. References: `exact`, and
+// values that follow from the scene.
 #include <cmath>
 #include <map>
 #include <string>
@@ -121,6 +122,62 @@ TEST(PeaksOfJumps, AreThoseThatAProgramSets) {
   EXPECT_LT(structure.peak("m", Quantity::u), 0.05 + 5e-5);
   EXPECT_GE(structure.peak("m", Quantity::contact_force), 1e5 * (0.05 - 0.01));
   EXPECT_LT(structure.peak("m", Quantity::contact_force), 1e5 * (0.05 + 5e-5 - 0.01));
+}
+
+/// A base of constant acceleration loads a mass, on a spring of 1e-3 N/m, by a parabola in time such that the path is
+/// u = 16 A s^2 (1 - s)^2, s = t - 0.15 s, until the stop at 0.75 A closes. The cubic through both ends of a step from
+/// s = 0 to 1 does not move at all.
+TEST(LoadsWithinLongSteps, ReachStopsByACurveThatTheirEndsDoNotShow) {
+  constexpr double kHeight = 0.01, kStiffness = 1e-3, kStart = -0.15;
+  constexpr double kAway = kStart * (1.0 - kStart);
+  const double u = 16.0 * kHeight * kAway * kAway, v = 32.0 * kHeight * kAway * (1.0 - 2.0 * kStart);
+  const double force = 16.0 * kHeight * (2.0 - 12.0 * kStart + 12.0 * kStart * kStart) + kStiffness * u;
+  const std::string scene =
+      R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "mass"
+name = "p"
+mass = 1.0
+[[support]]
+nodes = "p"
+fix = ["u"]
+[[element]]
+type = "spring"
+nodes = ["p", "m"]
+stiffness = 1e-3
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 0.0075
+sides = "positive"
+stiffness = 100.0
+[[load]]
+type = "constant"
+node = "m"
+value = )" +
+      to_text(force) + "\n[[base]]\nnodes = [\"p\"]\ninitial_velocity = " +
+      to_text(16.0 * kHeight * (24.0 * kStart - 12.0) / kStiffness) +
+      "\nacceleration = { direction = [0, 1, 0], type = \"constant\", value = " +
+      to_text(16.0 * kHeight * 24.0 / kStiffness) +
+      " }\n[initial]\ndisplacement = [{ nodes = \"m\", value = " + to_text(u) +
+      " }]\nvelocity = [{ nodes = \"m\", value = " + to_text(v) + " }]\n[integrator]\nend_time = 1.2\n";
+  const auto end_of = [&](const std::string& method) {
+    SceneRun run(scene + method);
+    EXPECT_TRUE(run.run().completed) << method;
+    const time::State& state = run.simulation().state();
+    return Eigen::Vector2d(state.x[0], state.v[0]);
+  };
+  const Eigen::Vector2d reference = end_of("type = \"exact\"\n");
+  for (const std::string tolerance : {"1e-2", "1e-4", "1e-6"}) {
+    const Eigen::Vector2d end = end_of("type = \"exponential\"\ntolerance = " + tolerance + "\n");
+    EXPECT_NEAR(end[0], reference[0], 10.0 * std::stod(tolerance) * u) << tolerance;
+    EXPECT_NEAR(end[1], reference[1], 10.0 * std::stod(tolerance) * std::abs(v)) << tolerance;
+  }
 }
 
 }  // namespace
