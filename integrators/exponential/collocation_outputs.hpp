@@ -86,7 +86,7 @@ class CollocationOutputs final : public time::Interpolant {
   };
   Longest longest(const time::State& from, const time::State& to);
 
-  /// A polynomial of degree 6 has few extremes in a step: 16 instants and the search of dips between them detect its
+  /// A polynomial of degree 8 has few extremes in a step: 16 instants and the search of dips between them detect its
   /// zeros.
   static constexpr int kTraceParts = 2;
 

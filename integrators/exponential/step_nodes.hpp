@@ -55,8 +55,8 @@ struct StepNodes {
   };
   static Hermite hermite(double place);
   /// A sine of frequency |lambda| differs from the polynomial through its values at the nodes by
-  /// less than kMiss w^7, w = |lambda| h; kMiss is 1/7! times kProduct, the largest product of the distances
-  /// from the nodes.
+  /// less than kMiss w^7, w = |lambda| h; kMiss is 1/7! times kProduct, a bound of the product of the
+  /// distances from the nodes, which is at most 2.2e-4.
   static constexpr double kProduct = 3e-4, kMiss = kProduct / 5040.0;
   /// Interpolation error of a sine of unit amplitude with w = |lambda| h, at most 2.
   static double missed_part(double w) {
