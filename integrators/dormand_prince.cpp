@@ -35,7 +35,8 @@ DormandPrince::DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal)
                 .kink = kKink,
                 .stable_turn = kStabilityLimit,
                 .stable_decay = kDampingLimit,
-                .share = 0.05},
+                .share = 0.05,
+                .has_quintic_outputs = true},
                LocalErrorControl::Steps::any),
       stiffness_("dopri5", kLimit) {
   for (std::size_t i = 0; i < kStages; ++i) v_[i] = a_[i] = Vector::Zero(dynamics.size());

@@ -28,7 +28,8 @@ Extrapolation::Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal)
                 .damping = kLongest,
                 .stable_turn = kLimit,
                 .stable_decay = kDampingLimit,
-                .share = 0.002},
+                .share = 0.002,
+                .has_quintic_outputs = true},
                LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());

@@ -42,12 +42,17 @@ constexpr double kOfJump = 0.1;
 constexpr double kOfAcceleration = 1.0 / 32.0, kMostUnseen = 0.05;
 /// The displacement within a step, interpolated with a velocity of 1/h at one end: the maximum of s^2 (1 - s).
 constexpr double kOfVelocity = 4.0 / 27.0;
+/// The slope of the quintic with a displacement of 1 at one end, times h: the maximum of 30 s^2 (1 - s)^2. Errors of
+/// velocities in outputs within a step may be kInOutputs tolerances large (chosen).
+constexpr double kOfDisplacement = 15.0 / 8.0, kInOutputs = 1.0;
 /// The estimate of a stiff step may reach this fraction of the tolerance.
 constexpr double kMostStiff = 0.5;
 /// Friction jumps in a step that changes the slip by more than this multiple of the slip speed of a smooth law.
 constexpr double kReversal = 2.0;
 /// Errors below kNearRounding may be rounding; those below kQuiet times their bound let the step grow at any rate.
 constexpr double kNearRounding = 1e-14, kQuiet = 1e-3;
+/// What exceeds the bound of rounding by this factor is no rounding (chosen).
+constexpr double kBeyondRounding = 100.0;
 /// Errors below kStillError times the displacements (rate_ times these) are rounding in a structure that rests. A
 /// control of them would follow vibrations of rounding at the highest frequency.
 constexpr double kStillError = 1e-12;
@@ -75,6 +80,8 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       discontinuities_(dynamics.load_discontinuities()),
       whole_(orders.share * std::pow(goal.tolerance, orders.estimate / orders.method)),
       tolerance_(goal.tolerance),
+      output_time_(orders.has_quintic_outputs ? kInOutputs * goal.tolerance / (kOfDisplacement * account_.rate())
+                                              : std::numeric_limits<double>::infinity()),
       as_a_whole_(goal.as_a_whole || dynamics.size() > kLargest),
       scale_x_(dynamics.size()),
       scale_v_(dynamics.size()),
@@ -202,6 +209,14 @@ double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, Const
   return largest;
 }
 
+double LocalErrorControl::output_error(ConstVectorRef error_x, const Vector& scale_x) const {
+  double largest = 0.0;
+  for (Index i = 0; i < output_v_.size(); ++i)
+    if (const double error = std::abs(error_x[i]); error > kNearRounding * scale_x[i] && output_v_[i] > 0.0)
+      largest = std::max(largest, error / (output_time_ * output_v_[i]));
+  return largest;
+}
+
 double LocalErrorControl::unseen_start(const time::State& from, const time::State& to, double h,
                                        const Vector& scale_x) {
   work_ = (h * h) * from.a - 6.0 * (to.x - from.x) + h * (4.0 * from.v + 2.0 * to.v);
@@ -272,10 +287,14 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
+  if (!as_a_whole_ && std::isfinite(output_time_)) output_v_ = scale_v_;
   const double smooth = smooth_error(h);
   const double balance = from.memory[kAccount] + account_.rate() * h;
-  double epsilon = as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth)
-                               : relative_error(h, error_x, error_v, scale_x_, scale_v_);
+  const auto error_relative_to = [&](const Vector& scale_x, const Vector& scale_v) {
+    return std::max(relative_error(h, error_x, error_v, scale_x, scale_v), output_error(error_x, scale_x));
+  };
+  double epsilon =
+      as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : error_relative_to(scale_x_, scale_v_);
   if (rests(to, error_x, error_v)) {
     to.memory[kOld] = kSmallest;
     to.memory[kAccount] = balance;
@@ -294,7 +313,8 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     scales_.raise(work_, scale_v_);
     work_ = (kFromRest / fastest_) * scale_v_;
     scales_.raise(work_, scale_x_);
-    epsilon = relative_error(h, error_x, error_v, scale_x_, scale_v_);
+    if (output_v_.size() > 0) output_v_ = output_v_.cwiseMax(kFromRest * scale_v_);
+    epsilon = error_relative_to(scale_x_, scale_v_);
   }
   const Change change = change_of_contact(from, to, h);
   double charge = 0.0;
@@ -303,7 +323,13 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     level_x_ = scale_x_;
     level_v_ = scale_v_;
     rounding_->raise(from, to, h, longest_stable(), bound, level_x_, level_v_);
-    epsilon = relative_error(h, error_x, error_v, level_x_, level_v_);
+    if (output_v_.size() > 0) output_v_ = (level_v_.array() > scale_v_.array()).select(level_v_, output_v_);
+    epsilon = error_relative_to(level_x_, level_v_);
+    if (epsilon > kBeyondRounding * bound) {
+      excess_x_ = (error_x.cwiseAbs() - kBeyondRounding * bound * level_x_).cwiseMax(0.0);
+      excess_v_ = (error_v.cwiseAbs() - kBeyondRounding * bound * level_v_).cwiseMax(0.0);
+      epsilon = std::max(epsilon, relative_error(h, excess_x_, excess_v_, scale_x_, scale_v_));
+    }
     r = error_ratio(from, to, h, epsilon, change, level_x_, charge);
   };
   // Nor does the account pay for rounding.

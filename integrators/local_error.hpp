@@ -63,6 +63,8 @@ class LocalErrorControl {
     /// For structures measured as a whole: the fraction of tolerance^(q/p) that the estimate may
     /// reach.
     double share = 1.0;
+    /// Outputs are those of QuinticInterpolant.
+    bool has_quintic_outputs = false;
   };
   /// `geometric`: step sizes lie on a geometric grid of ratio 2^(1/4), so that factorizations are
   /// reused.
@@ -155,6 +157,9 @@ class LocalErrorControl {
   /// The errors of velocities count also as errors of displacements in outputs within the step.
   static double relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v, const Vector& scale_x,
                                const Vector& scale_v);
+  /// The largest error of a velocity in outputs within the step, whose quintic has the errors of displacements at its
+  /// end, relative to kInOutputs tolerances of output_v_ and in terms of an estimate.
+  double output_error(ConstVectorRef error_x, const Vector& scale_x) const;
   /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative
   /// to the displacement scales. If it is not small, the step is longer than a motion that begins with it, of which the
   /// estimates of L-stable methods show nothing.
@@ -196,9 +201,12 @@ class LocalErrorControl {
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
   double whole_;                         ///< bound of epsilon for structures measured as a whole
   double tolerance_;
+  double output_time_;  ///< s: displacements over velocities whose errors are as large in outputs; infinite: any
   bool as_a_whole_;
   Vector scale_x_, scale_v_, work_;
-  Vector level_x_, level_v_;  ///< the scales, at least those of rounding
+  Vector output_v_;             ///< the scales of velocities in outputs; empty unless outputs are quintics
+  Vector level_x_, level_v_;    ///< the scales, at least those of rounding
+  Vector excess_x_, excess_v_;  ///< errors beyond rounding
 };
 
 }  // namespace butee::integrators

@@ -64,7 +64,14 @@ void Rodas4Output::interpolate(const time::State& from, const time::State& to, d
 
 Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, goal, {4.0, 4.0, kConstant, kContactChange, kKink}, LocalErrorControl::Steps::geometric),
+      control_(dynamics, goal,
+               {.estimate = 4.0,
+                .method = 4.0,
+                .constant = kConstant,
+                .contact_change = kContactChange,
+                .kink = kKink,
+                .has_quintic_outputs = true},
+               LocalErrorControl::Steps::geometric),
       solver_(dynamics.effective(), dynamics.obstacles()) {
   if (dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
     throw InputError(

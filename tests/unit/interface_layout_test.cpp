@@ -25,6 +25,7 @@ const std::map<int, std::uint64_t> kDigests = {
     {13, 0x57900ce29727d513}, {14, 0xba7a2c3fd23afaf8}, {15, 0xe938d542d056cba8}, {16, 0x4e376cfa5df14448},
     {17, 0x648831418307f413}, {18, 0x5758c22ce0d02310}, {19, 0x29faed57087dbb1e}, {20, 0x757e537388de2409},
     {21, 0xc84b0764f221c814},
+    {22, 0xa3cfcb813d848504},
 };
 
 /// The folders whose types modules derive from, store or pass. Types of scenes, records and embedding do not
