@@ -28,6 +28,9 @@ constexpr double kGrowth = 2.0, kTiny = 0.5, kSlack = 0.5;
 constexpr double kMissed = 8.0;
 /// Steps on the grid exceed a limit to which they are shortened by rounding.
 constexpr double kOnGrid = 1.0 + 1e-6;
+/// The first step turns the fastest motion by the smaller of kFirstTurn and kFirstOfTolerance tolerance^(1/p) (chosen):
+/// at a start from rest under a constant force the estimate of an odd order vanishes.
+constexpr double kFirstTurn = 0.1, kFirstOfTolerance = 4.0;
 /// The part of the displacement reached within 1/omega to which errors are relative at a start from rest: velocities
 /// grow as t, displacements as t^2. The guaranteed error is relative to at least a thousandth of the largest of the
 /// run.
@@ -88,15 +91,18 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       work_(dynamics.size()) {
   const model::System& system = dynamics.system();
   const FastestRates rates = fastest_rates(dynamics);
-  first_step_ = rates.open > 0.0 ? 0.1 / rates.open : 1e-6 * std::min(1.0, goal.run_time);
+  const double first_turn = std::min(kFirstTurn, kFirstOfTolerance * std::pow(goal.tolerance, 1.0 / orders.method));
+  first_step_ = rates.open > 0.0 ? first_turn / rates.open : 1e-6 * std::min(1.0, goal.run_time);
   omega_ = rates.closed;
   rate_ = fastest_ = rates.any();
   if (!as_a_whole_) rounding_.emplace(dynamics, goal.tolerance, rate_);
   for (const model::FreeLoad& load : system.loads)
     if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0) {
-      first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
+      first_step_ = std::min(first_step_, first_turn / harmonic->angular_frequency);
       fastest_ = std::max(fastest_, harmonic->angular_frequency);
     }
+  first_step_ = std::min(first_step_, first_turn * goal.run_time);
+  fastest_ = std::max(fastest_, 1.0 / goal.run_time);
   for (Index i = 0; i < dynamics.stops().size(); ++i)
     if (const double border = inner_border(dynamics.stops().law_of(i)); border > 0.0)
       inner_borders_.emplace_back(i, border);

@@ -193,7 +193,7 @@ class LocalErrorControl {
   /// stiffness.
   double omega_ = 0.0;
   double rate_ = 0.0;     ///< that, or the highest rate at which damping decelerates a DOF, 1/s
-  double fastest_ = 0.0;  ///< that, or the highest frequency of a harmonic load, 1/s
+  double fastest_ = 0.0;  ///< that, the highest frequency of a harmonic load or 1/run_time, 1/s
   double longest_ = std::numeric_limits<double>::infinity();  ///< step by Orders::damping, s
   std::optional<double> longest_stable_;
   Steps steps_;

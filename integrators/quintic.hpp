@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "butee/time/integrator.hpp"
 
@@ -14,10 +15,16 @@ struct Motion {
 
 /// The quintic through two motions at s = 0 and s = 1, a time h apart.
 class Quintic {
+  static constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+
  public:
   Quintic(double h, const Motion& from, const Motion& to) : h_(h) {
     const double hv0 = h * from.v, hv1 = h * to.v, ha0 = 0.5 * h * h * from.a, ha1 = 0.5 * h * h * to.a;
-    const double rise = to.x - from.x - hv0 - ha0, turn = hv1 - hv0 - 2.0 * ha0, bend = ha1 - ha0;
+    // What the velocities leave of the displacement below its rounding would be a velocity of rounding over h.
+    const double moved = 0.5 * (hv0 + hv1) + (ha0 - ha1) / 6.0, rest = to.x - from.x - moved;
+    const bool is_rounding = std::abs(rest) <= kRounding * std::max(std::abs(from.x), std::abs(to.x));
+    const double rise = (is_rounding ? moved : to.x - from.x) - hv0 - ha0, turn = hv1 - hv0 - 2.0 * ha0,
+                 bend = ha1 - ha0;
     c_ = {from.x,
           hv0,
           ha0,
